@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/frame/camera.h"
+#include "core/scene/scene.h"
+
+// The scene at the time of one frame: what the passes read.
+
+namespace penumbra {
+
+// A model at this frame's time. Positions and normals are in world space, so that the rasterizer, the
+// resolve and the occluders see the same floats.
+struct Instance {
+    const Mesh* mesh = nullptr;
+    std::span<const std::uint32_t> materials;  // slot -> index into SceneView::materials
+    std::vector<Vec3f> positions;              // world; one more element than vertices (read by wide loads)
+    std::vector<Vec3f> normals;                // world, unit
+    Affine3f world_from_object;
+    Affine3f previous_from_current;  // world position now -> world position in the previous frame
+    bool is_animated = false;        // has a track that moves at any time of the scene
+    bool moved = false;              // world_from_object differs from the previous evaluated frame's
+    bool flips_winding = false;      // the transform mirrors
+};
+
+// A light of this frame: convex, planar, emitting to the side of `normal` (both, if two-sided).
+struct PolygonLight {
+    int vertex_count = 0;  // 3 to 8, counter-clockwise seen from the side of `normal`
+    Vec3f vertices[kMaxLightVertices];
+    Vec3f normal;    // unit
+    Vec3f center;    // mean of the vertices
+    float area = 0;  // square metres
+    Vec3f radiance;
+    bool two_sided = false;
+    bool visible = true;       // drawn by the lights' own pass; false for emitters: they are geometry
+    bool is_geometry = false;  // an emissive face of a model
+};
+
+// Everything the passes of a frame read; owns the evaluated positions. Refer to it by const reference.
+struct SceneView {
+    std::span<const Material> materials;
+    std::span<const Texture> textures;
+    std::vector<Instance> instances;   // one per model, in the scene's order
+    std::vector<PolygonLight> lights;  // the scene file's, then the emitters', in the scene's order
+    Vec3f background{};
+    Camera camera;
+    Camera previous_camera;
+    Vec3f bounds_min{}, bounds_max{};  // of all positions, world
+};
+
+struct EvaluateTimes {
+    double now = 0;       // seconds
+    double previous = 0;  // of frame f - 1 of the scene's grid; equal to `now` for the first frame's motion 0
+};
+
+struct FilmSize {
+    int width = 0;
+    int height = 0;
+};
+
+// Evaluates the scene at a time. `reuse` is the view of another time of the same scene, or an empty
+// one: what did not move is taken over from it, but the result does not depend on it.
+void evaluate(const Scene& scene, EvaluateTimes times, FilmSize film, SceneView& reuse);
+
+}  // namespace penumbra
