@@ -1,0 +1,122 @@
+#pragma once
+
+#include "core/bsdf/ggx.h"
+#include "core/light/ltc_rows.h"
+#include "core/math/vec.h"
+
+// Linearly transformed cosines for our GGX: Heitz, Dupuy, Hill and Neubelt, "Real-Time
+// Polygonal-Light Shading with Linearly Transformed Cosines" (2016), with a table of our own
+// (apps/tools/ltc_fit). Differs from theirs: all four entries of the matrix are fitted, the lower
+// row is stored divided by alpha, the angle axis resolves grazing views, and the amplitudes know
+// the horizon.
+//
+// The frame is that of frame_from_normal_and_view: z is the normal, the view is (sin, 0, cos).
+//
+// How a light is shaded. With D the distribution of the entry (a density over the whole sphere),
+//     specular radiance = L * ltc_specular_scale(entry, f0) * (integral of D over the light's
+//     directions
+//                                                              with z > 0)
+// that is: clip the light to the true horizon first, then transform its vertices by to_cosine_space
+// and integrate the clamped cosine. `norm` and `fresnel` are already divided by the mass of D above
+// the horizon, so that a light that fills the hemisphere gives exactly the albedo of the tabulated
+// BRDF.
+
+namespace penumbra {
+
+template <class F>
+struct LtcEntry {
+    // The inverse matrix is ((m00, 0, m02), (0, 1, 0), (m20, 0, m22)), with a positive determinant.
+    F m00, m02, m20, m22;
+    F determinant;
+    // Amplitudes for the two terms of Schlick's Fresnel F0 + (1 - F0) (1 - V.H)^5, each the
+    // integral of the BRDF times cosine (and times that weight, for `fresnel`) over the mass above
+    // the horizon.
+    F norm, fresnel;
+    // The integral of D over z > 0, in [0.99, 1]. norm * mass_above_horizon is the albedo at F = 1.
+    F mass_above_horizon;
+};
+
+// Number of nodes along each axis of the table. Roughness is linear from kMinimumRoughness to 1.
+inline constexpr int kLtcRoughnessNodes = 64;
+inline constexpr int kLtcAngleNodes = 64;
+// How much of the angle axis belongs to grazing views; see ltc_angle_coordinate.
+inline constexpr float kLtcGrazingStretch = 0.5f;
+
+// kLtcRoughnessNodes x kLtcAngleNodes rows of kLtcRowFloats floats, the angle running fastest:
+// m00, m02, m20 / alpha, m22 / alpha, norm, fresnel, mass_above_horizon, 0.
+extern const float kLtcTable[];
+
+// Position along the angle axis, 0 at normal incidence and 1 at grazing. Like the angle itself near
+// the normal, but with nodes as fine as 0.1 degrees near grazing.
+template <class F>
+F ltc_angle_coordinate(const F& cos_view) {
+    const F cosine = simd::saturate(cos_view);
+    const F steep = simd::sqrt(F(1) - cosine);
+    return steep / simd::fma(F(kLtcGrazingStretch), simd::sqrt(cosine), steep);
+}
+
+// Bilinear lookup. Roughness is clamped to [kMinimumRoughness, 1] and the cosine to [0, 1]; NaN is
+// not allowed. The same bits for float and any lane count.
+template <class F>
+LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view);
+
+// From the shading frame to the space where D is the clamped cosine over pi. Not normalised.
+template <class F>
+Vec3<F> to_cosine_space(const LtcEntry<F>& entry, const Vec3<F>& direction) {
+    return {simd::fma(entry.m00, direction.x, entry.m02 * direction.z), direction.y,
+            simd::fma(entry.m20, direction.x, entry.m22 * direction.z)};
+}
+
+// The way back, up to a positive factor.
+template <class F>
+Vec3<F> from_cosine_space(const LtcEntry<F>& entry, const Vec3<F>& direction) {
+    return {simd::fma(entry.m22, direction.x, -(entry.m02 * direction.z)),
+            entry.determinant * direction.y,
+            simd::fma(entry.m00, direction.z, -(entry.m20 * direction.x))};
+}
+
+// D of a unit direction, per steradian. It integrates to 1 over the sphere.
+template <class F>
+F ltc_density(const LtcEntry<F>& entry, const Vec3<F>& direction) {
+    const Vec3<F> q = to_cosine_space(entry, direction);
+    const F squared = length_squared(q);
+    return F(kOneOverPi) * simd::max(q.z, F(0)) * entry.determinant / (squared * squared);
+}
+
+// What the integral of D over a light is multiplied with, beside the light's radiance.
+template <class F>
+Vec3<F> ltc_specular_scale(const LtcEntry<F>& entry, const Vec3<F>& f0) {
+    const F slope = entry.norm - entry.fresnel;
+    return {simd::fma(f0.x, slope, entry.fresnel), simd::fma(f0.y, slope, entry.fresnel),
+            simd::fma(f0.z, slope, entry.fresnel)};
+}
+
+// The share of the light that a surface under uniform light of radiance 1 reflects specularly.
+template <class F>
+Vec3<F> ltc_specular_albedo(const LtcEntry<F>& entry, const Vec3<F>& f0) {
+    return ltc_specular_scale(entry, f0) * entry.mass_above_horizon;
+}
+
+// ---- implementation --------------------------------------------------------------------------
+
+template <class F>
+LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view) {
+    const F clamped = simd::clamp(roughness, F(kMinimumRoughness), F(1));
+    const F scale = F((kLtcRoughnessNodes - 1) / (1 - kMinimumRoughness));
+    const LtcRow<F> row = ltc_interpolate_rows<kLtcRoughnessNodes, kLtcAngleNodes>(
+        kLtcTable, (clamped - F(kMinimumRoughness)) * scale,
+        ltc_angle_coordinate(cos_view) * F(kLtcAngleNodes - 1));
+    const F alpha = clamped * clamped;
+    LtcEntry<F> entry{};
+    entry.m00 = row.column[0];
+    entry.m02 = row.column[1];
+    entry.m20 = row.column[2] * alpha;
+    entry.m22 = row.column[3] * alpha;
+    entry.determinant = simd::fma(entry.m00, entry.m22, -(entry.m02 * entry.m20));
+    entry.norm = row.column[4];
+    entry.fresnel = row.column[5];
+    entry.mass_above_horizon = row.column[6];
+    return entry;
+}
+
+}  // namespace penumbra
