@@ -1,0 +1,40 @@
+#pragma once
+
+#include "apps/renderer/aov.h"
+#include "core/frame/light_sums.h"
+#include "core/frame/surface.h"
+
+namespace penumbra::renderer {
+
+// The full-frame planes of one frame: what the denoiser reads, what it writes, and the AOVs that were
+// asked for. Planes cover `window`, so that window pixel (0, 0) is full-frame pixel (window.x0, window.y0).
+struct Film {
+    int width = 0, height = 0;  // of the full frame
+    PixelRect crop;             // what the user wants, inside the full frame
+    PixelRect window;           // crop + the filters' margin, in whole tiles: what is rendered
+    AovSet wanted;
+
+    // Left behind by the tile passes; sums over the --aa passes until they are scaled to means.
+    Plane3<float> unshadowed;          // U
+    Plane3<float> shadowed;            // S_N; filtered, if the AOV is wanted
+    Plane3<float> unshadowed_samples;  // U_N; likewise
+    Plane3<float> emission;
+    Plane<float> coverage;
+    Plane<float> depth;                // first --aa pass, as are normals, position, motion and ids
+    Plane3<float> normal;
+
+    // Left behind by the frame passes.
+    Plane3<float> beauty;
+    Plane<float> noise;     // E
+    Plane3<float> shadow;   // W, if wanted
+
+    // Only if wanted.
+    Plane3<float> position, geometric_normal, base_color;
+    Plane<float> roughness, metallic, motion_x, motion_y;
+    Plane<std::uint32_t> instance, triangle, material;
+};
+
+// Allocates the planes, anew only where the size or the wanted set changed.
+void prepare_film(int width, int height, PixelRect crop, int margin, AovSet wanted, Film& film);
+
+}  // namespace penumbra::renderer
