@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/frame/tile.h"
+#include "core/simd/isa.h"
+
+namespace penumbra::renderer {
+
+enum class Method {
+    kRatio,       // emission + U * W, W = S_N / U_N (Heitz, Hill and McGuire 2018)
+    kStochastic,  // emission + S_N: plain Monte Carlo with the same samples
+    kUnshadowed,  // emission + U
+};
+
+enum class Denoise { kNoiseDriven, kNone };
+
+// What the pixels depend on, beside the scene.
+struct ImageSettings {
+    int width = 0, height = 0;      // 0: the scene's
+    std::optional<PixelRect> crop;  // inside the frame
+    Method method = Method::kRatio;
+    Denoise denoise = Denoise::kNoiseDriven;
+    int samples_per_pixel = 0;      // shadow rays per light and pixel, 1 to 64; 0: the scene's
+    int passes = 1;                 // --aa: jittered passes, 1 to 256
+    std::uint32_t seed = 0;
+    float light_tolerance = 1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
+};
+
+enum class TraceIsa { kAvx2, kAvx512, kAuto };
+enum class TileOrder { kNatural, kShuffled };
+enum class ShadowTest { kTraced, kForcedVisible };
+
+// What no pixel depends on; the last two are for tests.
+struct ExecutionSettings {
+    int threads = 0;  // 0: what the machine allows
+    std::optional<simd::Isa> isa;
+    TraceIsa trace_isa = TraceIsa::kAvx2;  // its bits may differ for up to one ray in a million
+    TileOrder tile_order = TileOrder::kNatural;
+    ShadowTest shadow_test = ShadowTest::kTraced;
+};
+
+}  // namespace penumbra::renderer
