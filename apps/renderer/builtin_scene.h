@@ -1,0 +1,10 @@
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace penumbra::renderer {
+
+// The scene that is rendered when none is named: data/scenes/turntable, embedded in the program.
+[[nodiscard]] Scene read_builtin_scene();
+
+}  // namespace penumbra::renderer

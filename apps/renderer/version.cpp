@@ -1,0 +1,7 @@
+#include "apps/renderer/version.h"
+
+namespace penumbra::renderer {
+
+std::string_view version() { return PENUMBRA_VERSION; }
+
+}  // namespace penumbra::renderer
