@@ -10,7 +10,7 @@ def axes_facing(position, target, half_width, half_height):
     forward = normalized(subtract(target, position))
     u = normalized(cross((0.0, 1.0, 0.0), forward))
     v = cross(forward, u)
-    return rounded(scaled(u, half_width)), rounded(scaled(v, half_height))
+    return scaled(u, half_width), scaled(v, half_height)
 
 
 def polygon_facing(position, target, radius, corners):
@@ -22,6 +22,3 @@ def polygon_facing(position, target, radius, corners):
         result.append(add(position, add(scaled(u, math.cos(angle)), scaled(v, math.sin(angle)))))
     return result
 
-
-def rounded(a):
-    return tuple(round(value, 6) for value in a)
