@@ -43,7 +43,8 @@ struct FrameStatistics {
     double write_seconds = 0;       // wall clock of encoding and writing, beside the next frame
     std::uint64_t shadow_rays = 0;
     std::uint64_t triangles = 0;
-    std::uint64_t clamped_halves = 0;  // values beyond 65504 in half channels
+    std::uint64_t clamped_halves = 0;     // values beyond 65504 in half channels
+    std::uint64_t non_finite_values = 0;  // a defect wherever it is not 0
 };
 
 }  // namespace penumbra::renderer
