@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/frame/scene_view.h"
+#include "core/parallel/arena.h"
+
+// The geometry that blocks light. The one door to Embree: nothing else names it.
+
+namespace penumbra::shadow {
+
+// Embree's own instruction set. Fixed, since about one occluded bit in a million may differ between
+// them.
+enum class TraceIsa { kAvx2, kAvx512, kAuto };
+
+// "avx2", "avx512" or "auto"; throws InputError for other names and for what the processor lacks.
+[[nodiscard]] TraceIsa parse_trace_isa(std::string_view name);
+
+// A batch of rays as structure of arrays, aligned to 64 bytes, with room for a multiple of 16. A
+// ray is origin + t * direction, near < t < far.
+struct RayStream {
+    float* origin[3];
+    float* direction[3];
+    float* near_limit;
+    float* far_limit;  // becomes -infinity where the ray is blocked
+    int count = 0;
+};
+
+class Occluders {
+  public:
+    // Uses the arena's threads, and no others, to build. `arena` must outlive it.
+    Occluders(const parallel::Arena& arena, TraceIsa isa);
+    ~Occluders();
+    Occluders(const Occluders&) = delete;
+    Occluders& operator=(const Occluders&) = delete;
+
+    // Makes the geometry that of `view`; rebuilds only what moved since the last call. Keeps
+    // pointers into the view and its meshes and textures: they must stay where they are until the
+    // next update. The result depends on the view alone, not on earlier ones. Throws OutputError if
+    // memory is short.
+    void update(const SceneView& view);
+
+    // Marks blocked rays. Any number of threads may call it at once.
+    void occlude(const RayStream& rays) const;
+
+    // Per instance: the size of the numbers, metres, whose rounding errors a ray's origin must be
+    // offset for, beside those of its own coordinates. See rays.h.
+    [[nodiscard]] std::span<const float> offset_scales() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace penumbra::shadow
