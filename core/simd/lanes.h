@@ -38,7 +38,7 @@ struct Mask {
     explicit Mask(bool all) : bits(all) {}
     friend Mask operator&(Mask a, Mask b) { return a.bits & b.bits; }
     friend Mask operator|(Mask a, Mask b) { return a.bits | b.bits; }
-    friend Mask operator^(Mask a, Mask b) { return a.bits ^ b.bits; }
+    friend Mask operator^(Mask a, Mask b) { return a.bits != b.bits; }  // xsimd 8.1's ^ is |
     friend Mask operator!(Mask a) { return ~a.bits; }
     Mask& operator&=(Mask b) { return *this = *this & b; }
     Mask& operator|=(Mask b) { return *this = *this | b; }
@@ -198,8 +198,12 @@ T copysign(T magnitude, std::type_identity_t<T> sign) {
     return std::copysign(magnitude, sign);
 }
 // Towards zero; out of range gives INT32_MIN, as the hardware does.
-inline std::int32_t to_int(float a) { return _mm_cvttss_si32(_mm_set_ss(a)); }
-inline std::int32_t to_int(double a) { return _mm_cvttsd_si32(_mm_set_sd(a)); }
+// (Not the intrinsic: g++ folds it for constants, and then out of range gives something else.)
+template <ScalarReal T>
+std::int32_t to_int(T a) {
+    return a >= T(-2147483648.0) && a < T(2147483648.0) ? static_cast<std::int32_t>(a)
+                                                        : std::int32_t{-2147483647 - 1};
+}
 inline float to_float(std::int32_t a) { return static_cast<float>(a); }
 inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
 inline std::uint32_t as_uint(float a) { return std::bit_cast<std::uint32_t>(a); }
@@ -276,7 +280,7 @@ Integer<Isa, T> max(Integer<Isa, T> a, std::type_identity_t<Integer<Isa, T>> b) 
 }
 template <class Isa>
 Float<Isa> abs(Float<Isa> a) {
-    return xsimd::bitwise_andnot(a.v, typename Float<Isa>::Batch(-0.0f));
+    return a.v & typename Float<Isa>::Batch(as_float(0x7fffffff));
 }
 template <class Isa>
 Float<Isa> sqrt(Float<Isa> a) {
