@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/frame/frame_context.h"
+#include "core/frame/scene_view.h"
+#include "core/frame/surface.h"
+#include "core/light/polygon_shape.h"
+
+// The lights of a frame as the analytic passes read them, and the choice of those that matter to a
+// tile.
+
+namespace penumbra::shadow {
+
+static_assert(kMaxPolygonVertices == kMaxLightVertices);
+
+struct ShadedLight {
+    PolygonShape<float> shape;
+    Vec3f radiance;
+    bool visible = false;  // drawn by draw_lights
+};
+
+// One entry per light of SceneView::lights, in the same order.
+struct LightSet {
+    std::vector<ShadedLight> lights;
+};
+
+// Once per frame.
+void prepare_lights(const SceneView& view, LightSet& set);
+
+// One worker's choice of lights for a tile. Memory is kept from tile to tile.
+class TileLights {
+  public:
+    // Indices into SceneView::lights, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> kept() const { return kept_; }
+
+  private:
+    friend void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
+                            const ConstSurfaceView& surface, float tolerance, TileLights& tile);
+    std::vector<std::uint32_t> kept_, order_;
+    std::vector<float> upper_, lower_, rank_;
+};
+
+// Chooses the lights of a tile. Always leaves out lights that provably reach no pixel of the tile.
+// If `tolerance` > 0, also leaves out dim ones, the dimmest first, as long as this holds at every
+// pixel of the tile:
+//
+//     luminance of the culled lights' U <= tolerance * luminance of the kept lights' U,
+//
+// U being diffuse + glossy. It is a guarantee: upper bounds of the culled lights against lower
+// bounds of the kept ones' diffuse part, over the positions, normals and materials of each 16 x 16
+// block. Where such a lower bound is zero (metals, black surfaces, blocks that some kept light
+// reaches only in part) nothing more is left out. A function of the tile's surface and the lights
+// alone.
+void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
+                 const ConstSurfaceView& surface, float tolerance, TileLights& tile);
+
+}  // namespace penumbra::shadow

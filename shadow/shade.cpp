@@ -1,0 +1,20 @@
+#include "shadow/shade.h"
+
+#include "shadow/shade_kernel.h"
+
+namespace penumbra::shadow {
+
+void shade(const LightSet& set, const TileLights& tile_lights, const SceneView& view,
+           const FrameContext& context, const ConstSurfaceView& surface,
+           const LightSumsView& sums) {
+    const std::span<const std::uint32_t> kept = tile_lights.kept();
+    simd::pick(context.isa, &avx2::shade_tile,
+               &avx512::shade_tile)({.lights = set.lights.data(),
+                                     .kept = kept.data(),
+                                     .kept_count = static_cast<int>(kept.size()),
+                                     .eye = view.camera.eye,
+                                     .surface = surface,
+                                     .sums = sums});
+}
+
+}  // namespace penumbra::shadow

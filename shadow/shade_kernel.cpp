@@ -1,0 +1,54 @@
+#include "shadow/shade_kernel.h"
+
+#include "core/frame/visibility.h"
+#include "core/simd/kernel.h"
+#include "shadow/shade_point.h"
+
+namespace penumbra::PENUMBRA_ISA {
+namespace {
+
+Vec3<F> load3(const PlaneView3<const float>& planes, int x, int y) {
+    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
+            simd::load<F>(planes[2].row(y) + x)};
+}
+
+void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& v) {
+    simd::store(planes[0].row(y) + x, v.x);
+    simd::store(planes[1].row(y) + x, v.y);
+    simd::store(planes[2].row(y) + x, v.z);
+}
+
+shadow::Unshadowed<F> shade_block(const shadow::ShadeJob& job, int x, int y) {
+    const ConstSurfaceView& surface = job.surface;
+    const shadow::ShadingPoint<F> point{load3(surface.position, x, y),
+                                        load3(surface.normal, x, y),
+                                        broadcast<F>(job.eye),
+                                        load3(surface.base_color, x, y),
+                                        simd::load<F>(surface.roughness.row(y) + x),
+                                        simd::load<F>(surface.metallic.row(y) + x),
+                                        simd::load<F>(surface.dielectric_f0.row(y) + x)};
+    const shadow::ShadingLobes<F> lobes = shadow::make_lobes(point);
+    shadow::Unshadowed<F> sum;
+    for (int i = 0; i < job.kept_count; ++i) {
+        const shadow::ShadedLight& light = job.lights[job.kept[i]];
+        shadow::add_light(light.shape, light.radiance, point, lobes, sum);
+    }
+    return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
+}
+
+}  // namespace
+
+void shade_tile(const shadow::ShadeJob& job) {
+    const Vec3<F> zero{F(0), F(0), F(0)};
+    for (int y = 0; y < kTileSize; ++y) {
+        for (int x = 0; x < kTileSize; x += kLanes) {
+            const M hit = simd::load<U>(job.surface.material.row(y) + x) != U(kNothing);
+            shadow::Unshadowed<F> light;
+            if (job.kept_count > 0 && simd::any(hit)) light = shade_block(job, x, y);
+            store3(job.sums.unshadowed_diffuse, x, y, select(hit, light.diffuse, zero));
+            store3(job.sums.unshadowed_glossy, x, y, select(hit, light.glossy, zero));
+        }
+    }
+}
+
+}  // namespace penumbra::PENUMBRA_ISA

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/frame/light_sums.h"
+#include "core/frame/surface.h"
+#include "shadow/lights.h"
+
+namespace penumbra::shadow {
+
+struct ShadeJob {
+    const ShadedLight* lights;
+    const std::uint32_t* kept;
+    int kept_count;
+    Vec3f eye;
+    ConstSurfaceView surface;
+    LightSumsView sums;
+};
+
+}  // namespace penumbra::shadow
+
+namespace penumbra::avx2 {
+void shade_tile(const shadow::ShadeJob& job);
+}
+namespace penumbra::avx512 {
+void shade_tile(const shadow::ShadeJob& job);
+}
