@@ -48,8 +48,8 @@ HorizonCrossings<F> horizon_crossings(const Vec3<F>* vertices, const F* heights,
         const int next = i + 1 < count ? i + 1 : 0;
         const auto below = heights[i] < F(0);
         const auto next_below = heights[next] < F(0);
-        const auto leaves = !below & next_below;
-        const auto enters = below & !next_below;
+        const auto leaves = (!below) & next_below;
+        const auto enters = below & (!next_below);
         last_inside = select(leaves, vertices[i], last_inside);
         first_outside = select(leaves, vertices[next], first_outside);
         last_inside_height = simd::select(leaves, heights[i], last_inside_height);
@@ -89,8 +89,8 @@ ClippedPolygon<F> clip_by_heights(const Vec3<F>* vertices, const F* heights, int
         const int here = i < count ? i : 0;
         const auto below = heights[here] < F(0);
         // Without a cut, the slot behind the last vertex repeats it.
-        const auto take_previous = i < count ? shifted : !previous_below | shifted;
-        const auto enters = previous_below & !below;
+        const auto take_previous = i < count ? shifted : (!previous_below) | shifted;
+        const auto enters = previous_below & (!below);
         Vec3<F> current = select(below, crossings.leaving, vertices[here]);
         F current_height = simd::select(below, F(0), heights[here]);
         Vec3<F> slot = select(take_previous, previous, current);

@@ -264,11 +264,11 @@ F form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lo
     auto cut = seen.crosses_horizon;
     Vec3<F> directions[kMaxPolygonVertices];
     if constexpr (Lobe::kTransforms) {
-        auto above = lit & !lit;
+        auto above = lit & (!lit);
         for (int i = 0; i < light.count; ++i) {
             directions[i] = lobe.direction(seen.vertices[i]);
             const auto below = lobe.height(directions[i]) < F(0);
-            above = above | !below;
+            above = above | (!below);
             cut = cut | below;
         }
         lit = lit & above;
@@ -279,10 +279,10 @@ F form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lo
     const F squared_size = squared_angular_size(light, seen, lobe);
     const auto small = squared_size < F(kSmallLight<T> * kSmallLight<T>);
     F result = F(0);
-    if (simd::any(lit & !cut & !small))
+    if (simd::any(lit & !(cut | small)))
         result = edge_sum(light, seen, lobe, directions) *
                  (seen.winding * F(T(0.5 * 0.318309886183790672)));
-    if (simd::any(lit & !cut & small))
+    if (simd::any(lit & small & (!cut)))
         result = simd::select(small, small_form_factor(light, seen, lobe), result);
     if (simd::any(lit & cut))
         result = simd::select(cut, cut_form_factor(light, seen, lobe, squared_size), result);
