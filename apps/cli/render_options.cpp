@@ -28,9 +28,9 @@ const Words<ExrCompression> kCompressions = {
 const Words<bool> kPrecisions = {{"half", false}, {"float", true}};
 const Words<std::optional<simd::Isa>> kIsas = {
     {"auto", std::nullopt}, {"avx2", simd::Isa::kAvx2}, {"avx512", simd::Isa::kAvx512}};
-const Words<renderer::TraceIsa> kTraceIsas = {{"avx2", renderer::TraceIsa::kAvx2},
-                                              {"avx512", renderer::TraceIsa::kAvx512},
-                                              {"auto", renderer::TraceIsa::kAuto}};
+const Words<shadow::TraceIsa> kTraceIsas = {{"avx2", shadow::TraceIsa::kAvx2},
+                                              {"avx512", shadow::TraceIsa::kAvx512},
+                                              {"auto", shadow::TraceIsa::kAuto}};
 const Words<ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::kAuto},
                                               {"plain", ProgressStyle::kPlain},
                                               {"json", ProgressStyle::kJson},
@@ -144,7 +144,7 @@ void declare_options(CLI::App& command, RenderOptions& options) {
 }
 
 void interpret(RenderOptions& o) {
-    constexpr int kLargestSide = 65536 / 2;
+    constexpr int kLargestSide = 32767;  // the rasterizer's guard band
     if (!o.size.empty()) {
         const std::vector<int> size = integers(o.size, 'x', 2);
         if (size.empty() || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide || size[1] > kLargestSide)

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "core/frame/tile.h"
+#include "core/parallel/tiles.h"
 #include "core/simd/isa.h"
+#include "shadow/occluders.h"
+#include "shadow/trace.h"
 
 namespace penumbra::renderer {
 
@@ -29,17 +32,13 @@ struct ImageSettings {
     float light_tolerance = 1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
 };
 
-enum class TraceIsa { kAvx2, kAvx512, kAuto };
-enum class TileOrder { kNatural, kShuffled };
-enum class ShadowTest { kTraced, kForcedVisible };
-
 // What no pixel depends on; the last two are for tests.
 struct ExecutionSettings {
     int threads = 0;  // 0: what the machine allows
     std::optional<simd::Isa> isa;
-    TraceIsa trace_isa = TraceIsa::kAvx2;  // its bits may differ for up to one ray in a million
-    TileOrder tile_order = TileOrder::kNatural;
-    ShadowTest shadow_test = ShadowTest::kTraced;
+    shadow::TraceIsa trace_isa = shadow::TraceIsa::kAvx2;  // others: one ray in a million may differ
+    parallel::TileOrder tile_order{.kind = parallel::TileOrder::Kind::kMorton};
+    shadow::Visibility visibility = shadow::Visibility::kTraced;
 };
 
 }  // namespace penumbra::renderer

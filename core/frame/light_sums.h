@@ -16,4 +16,11 @@ struct LightSumViews {
 using LightSumsView = LightSumViews<float>;
 using ConstLightSumsView = LightSumViews<const float>;
 
+inline ConstLightSumsView to_const(const LightSumsView& s) {
+    return {.unshadowed_diffuse = to_const(s.unshadowed_diffuse),
+            .unshadowed_glossy = to_const(s.unshadowed_glossy),
+            .shadowed = to_const(s.shadowed),
+            .unshadowed_samples = to_const(s.unshadowed_samples)};
+}
+
 }  // namespace penumbra

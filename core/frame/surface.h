@@ -24,6 +24,24 @@ struct SurfacePlaneViews {
 using SurfaceView = SurfacePlaneViews<float, std::uint32_t>;
 using ConstSurfaceView = SurfacePlaneViews<const float, const std::uint32_t>;
 
+inline ConstSurfaceView to_const(const SurfaceView& s) {
+    return {.position = to_const(s.position),
+            .shadow_origin = to_const(s.shadow_origin),
+            .geometric_normal = to_const(s.geometric_normal),
+            .normal = to_const(s.normal),
+            .base_color = to_const(s.base_color),
+            .roughness = s.roughness,
+            .metallic = s.metallic,
+            .dielectric_f0 = s.dielectric_f0,
+            .emission = to_const(s.emission),
+            .depth = s.depth,
+            .motion_x = s.motion_x,
+            .motion_y = s.motion_y,
+            .instance = s.instance,
+            .triangle = s.triangle,
+            .material = s.material};
+}
+
 inline constexpr float kDepthOfNothing = 1e10f;
 
 }  // namespace penumbra

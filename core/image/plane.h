@@ -38,6 +38,11 @@ template <class T>
 using PlaneView3 = std::array<PlaneView<T>, 3>;
 
 template <class T>
+PlaneView3<const T> to_const(const PlaneView3<T>& v) {
+    return {v[0], v[1], v[2]};
+}
+
+template <class T>
 class Plane {
   public:
     Plane() = default;

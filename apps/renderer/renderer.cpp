@@ -1,0 +1,204 @@
+#include "apps/renderer/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "apps/renderer/deposit.h"
+#include "apps/renderer/frame_passes.h"
+#include "apps/renderer/jitter.h"
+#include "apps/renderer/tile_scratch.h"
+#include "core/error.h"
+#include "core/parallel/tiles.h"
+#include "core/profile/stopwatch.h"
+#include "raster/resolve.h"
+#include "shadow/accumulate.h"
+#include "shadow/draw_lights.h"
+#include "shadow/lights.h"
+
+namespace penumbra::renderer {
+namespace {
+
+// The scene's settings where the user's are silent.
+ImageSettings completed(const Scene& scene, ImageSettings image) {
+    if (image.width == 0) image.width = scene.width;
+    if (image.height == 0) image.height = scene.height;
+    if (image.samples_per_pixel == 0) image.samples_per_pixel = scene.samples_per_pixel;
+    if (!image.crop) image.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = image.width, .y1 = image.height};
+    return image;
+}
+
+std::uint64_t count_rays(const shadow::RayScratch& rays) {
+    std::uint64_t count = 0;
+    for (const std::uint64_t row : rays.active) count += static_cast<unsigned>(std::popcount(row));
+    return count;
+}
+
+// Seconds that one worker spent per pass, on a cache line of its own.
+struct alignas(64) WorkerCounts {
+    PassSeconds passes;
+    std::uint64_t shadow_rays = 0;
+};
+
+}  // namespace
+
+struct Renderer::State {
+    const Scene& scene;
+    ImageSettings image;
+    ExecutionSettings execution;
+    parallel::Arena arena;
+    shadow::Occluders occluders;
+    SceneView view;
+    Camera camera;  // without jitter
+    shadow::LightSet lights;
+    raster::Geometry geometry;
+    std::vector<TileScratch> scratch;    // one per worker
+    std::vector<WorkerCounts> counts;    // one per worker
+    FrameScratch frame_scratch;
+
+    State(const Scene& s, const ImageSettings& i, const ExecutionSettings& e)
+        : scene(s), image(completed(s, i)), execution(e),
+          arena(e.threads > 0 ? e.threads : parallel::default_thread_count()),
+          occluders(arena, e.trace_isa), scratch(static_cast<std::size_t>(arena.threads())),
+          counts(static_cast<std::size_t>(arena.threads())) {
+        if (!execution.isa) execution.isa = simd::best_isa();
+    }
+
+    void evaluate_at(int frame);
+    void render_tiles(int pass, const FrameContext& context, Film& film, FrameStatistics& statistics,
+                      const std::atomic<bool>* cancelled);
+    void render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film);
+    void trace_lights(const Tile& tile, const FrameContext& context, TileScratch& tile_scratch,
+                      WorkerCounts& count);
+};
+
+void Renderer::State::evaluate_at(int frame) {
+    evaluate(scene, times_of_frame(scene.animation, frame), {.width = image.width, .height = image.height},
+             view);
+    camera = view.camera;
+    if (image.method != Method::kUnshadowed) occluders.update(view);
+    shadow::prepare_lights(view, lights);
+}
+
+// S_N and U_N: one ray per pixel, light and sample at a time, so that rays fit the cache.
+void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context,
+                                   TileScratch& tile_scratch, WorkerCounts& count) {
+    profile::Stopwatch watch;
+    const shadow::RayInputs inputs{.frame = context,
+                                   .tile = tile,
+                                   .eye = view.camera.eye,
+                                   .surface = to_const(tile_scratch.surface()),
+                                   .offset_scales = occluders.offset_scales()};
+    for (const std::uint32_t light : tile_scratch.lights.kept()) {
+        for (int sample = 0; sample < image.samples_per_pixel; ++sample) {
+            shadow::generate_rays(inputs,
+                                  {.light = &view.lights[light],
+                                   .light_index = light,
+                                   .index = sample,
+                                   .count = image.samples_per_pixel},
+                                  tile_scratch.rays);
+            count.passes[Pass::kRays] += watch.restart();
+            shadow::trace(occluders, execution.visibility, tile_scratch.rays);
+            count.passes[Pass::kTrace] += watch.restart();
+            shadow::accumulate(tile_scratch.rays, context.isa, tile_scratch.sums());
+            count.passes[Pass::kRays] += watch.restart();
+            count.shadow_rays += count_rays(tile_scratch.rays);
+        }
+    }
+}
+
+// All that happens to a tile, in cache.
+void Renderer::State::render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film) {
+    TileScratch& s = scratch[static_cast<std::size_t>(worker)];
+    WorkerCounts& count = counts[static_cast<std::size_t>(worker)];
+    profile::Stopwatch watch;
+    s.clear_sums();
+
+    raster::rasterize(view, geometry, tile, context.isa, s.raster, s.visibility());
+    count.passes[Pass::kRasterize] += watch.restart();
+
+    raster::resolve(view, geometry, context, tile, s.visibility(), s.surface());
+    shadow::draw_lights(lights, view, context, tile, s.surface());
+    count.passes[Pass::kResolve] += watch.restart();
+
+    const ConstSurfaceView surface = to_const(s.surface());
+    shadow::cull_lights(lights, view, context, surface, image.light_tolerance, s.lights);
+    shadow::shade(lights, s.lights, view, context, surface, s.sums());
+    count.passes[Pass::kShade] += watch.restart();
+
+    if (image.method != Method::kUnshadowed) trace_lights(tile, context, s, count);
+
+    watch.restart();
+    deposit(tile, surface, to_const(s.sums()), context.pass, film);
+    count.passes[Pass::kDeposit] += watch.restart();
+}
+
+void Renderer::State::render_tiles(int pass, const FrameContext& context, Film& film,
+                                   FrameStatistics& statistics, const std::atomic<bool>* cancelled) {
+    profile::Stopwatch watch;
+    jitter(camera, pass, image.passes, view.camera);
+    raster::prepare(view, context, film.window, arena, geometry);
+    statistics.passes[Pass::kSetup] += watch.restart();
+
+    const parallel::TileGrid grid(film.window);
+    parallel::for_each_tile(
+        arena, grid, execution.tile_order,
+        [&](const Tile& tile, int worker) { render_tile(tile, context, worker, film); }, cancelled);
+    statistics.tiles_wall_seconds += watch.restart();
+}
+
+Renderer::Renderer(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution) {
+    check_settings(scene, image, execution);
+    state_ = std::make_unique<State>(scene, image, execution);
+}
+Renderer::~Renderer() = default;
+
+const Camera& Renderer::camera() const { return state_->camera; }
+int Renderer::threads() const { return state_->arena.threads(); }
+
+FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
+                                 const std::atomic<bool>* cancelled) {
+    State& s = *state_;
+    FrameStatistics statistics;
+    const profile::Stopwatch whole;
+    profile::Stopwatch watch;
+    s.evaluate_at(frame);
+    statistics.passes[Pass::kEvaluate] = watch.restart();
+
+    prepare_film(s.image.width, s.image.height, *s.image.crop, frame_margin(s.image), wanted, film);
+    std::fill(s.counts.begin(), s.counts.end(), WorkerCounts{});
+    FrameContext context{.width = s.image.width,
+                         .height = s.image.height,
+                         .frame = frame,
+                         .seed = s.image.seed,
+                         .isa = *s.execution.isa};
+    for (int pass = 0; pass < s.image.passes; ++pass) {
+        context.pass = pass;
+        s.render_tiles(pass, context, film, statistics, cancelled);
+    }
+    if (cancelled == nullptr || !cancelled->load())
+        finish_frame(s.image, context, s.view, s.arena, s.frame_scratch, film, statistics);
+
+    for (const WorkerCounts& count : s.counts) {
+        statistics.passes += count.passes;
+        statistics.shadow_rays += count.shadow_rays;
+    }
+    for (const Instance& instance : s.view.instances) statistics.triangles += instance.mesh->triangles.size();
+    statistics.render_seconds = whole.seconds();
+    return statistics;
+}
+
+void check_settings(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution) {
+    const ImageSettings all = completed(scene, image);
+    const PixelRect& crop = *all.crop;
+    if (crop.empty() || crop.x0 < 0 || crop.y0 < 0 || crop.x1 > all.width || crop.y1 > all.height)
+        throw InputError(fmt::format("--crop: expected a part of the {} x {} picture, got {},{},{},{}", all.width,
+                                     all.height, crop.x0, crop.y0, crop.x1, crop.y1));
+    if (execution.isa && !simd::is_supported(*execution.isa))
+        throw InputError(fmt::format("--isa: this processor does not support {}", simd::name(*execution.isa)));
+    static_cast<void>(simd::best_isa());
+}
+
+}  // namespace penumbra::renderer
