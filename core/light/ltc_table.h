@@ -43,7 +43,9 @@ inline constexpr int kLtcAngleNodes = 64;
 inline constexpr float kLtcGrazingStretch = 0.5f;
 
 // kLtcRoughnessNodes x kLtcAngleNodes rows of kLtcRowFloats floats, the angle running fastest:
-// m00, m02, m20 / alpha, m22 / alpha, norm, fresnel, mass_above_horizon, 0.
+// cos and sin of the tilt of the lobe's ridge, the stretch (m00, m02) = stretch * (cos, sin), m20 /
+// alpha, m22 / alpha, norm, fresnel, mass_above_horizon. In these terms the narrowest lobes at
+// grazing views vary as slowly as wide ones, so that bilinear interpolation keeps their direction.
 extern const float kLtcTable[];
 
 // Position along the angle axis, 0 at normal incidence and 1 at grazing. Like the angle itself near
@@ -58,7 +60,7 @@ F ltc_angle_coordinate(const F& cos_view) {
 // Bilinear lookup. Roughness is clamped to [kMinimumRoughness, 1] and the cosine to [0, 1]; NaN is
 // not allowed. The same bits for float and any lane count.
 template <class F>
-LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view);
+LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view, const float* table = kLtcTable);
 
 // From the shading frame to the space where D is the clamped cosine over pi. Not normalised.
 template <class F>
@@ -100,22 +102,22 @@ Vec3<F> ltc_specular_albedo(const LtcEntry<F>& entry, const Vec3<F>& f0) {
 // ---- implementation --------------------------------------------------------------------------
 
 template <class F>
-LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view) {
+LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view, const float* table) {
     const F clamped = simd::clamp(roughness, F(kMinimumRoughness), F(1));
     const F scale = F((kLtcRoughnessNodes - 1) / (1 - kMinimumRoughness));
     const LtcRow<F> row = ltc_interpolate_rows<kLtcRoughnessNodes, kLtcAngleNodes>(
-        kLtcTable, (clamped - F(kMinimumRoughness)) * scale,
+        table, (clamped - F(kMinimumRoughness)) * scale,
         ltc_angle_coordinate(cos_view) * F(kLtcAngleNodes - 1));
     const F alpha = clamped * clamped;
     LtcEntry<F> entry{};
-    entry.m00 = row.column[0];
-    entry.m02 = row.column[1];
-    entry.m20 = row.column[2] * alpha;
-    entry.m22 = row.column[3] * alpha;
+    entry.m00 = row.column[2] * row.column[0];
+    entry.m02 = row.column[2] * row.column[1];
+    entry.m20 = row.column[3] * alpha;
+    entry.m22 = row.column[4] * alpha;
     entry.determinant = simd::fma(entry.m00, entry.m22, -(entry.m02 * entry.m20));
-    entry.norm = row.column[4];
-    entry.fresnel = row.column[5];
-    entry.mass_above_horizon = row.column[6];
+    entry.norm = row.column[5];
+    entry.fresnel = row.column[6];
+    entry.mass_above_horizon = row.column[7];
     return entry;
 }
 
