@@ -18,8 +18,8 @@ struct FrameReport {
     int frame = 0;
     FrameOutcome outcome = FrameOutcome::kRendered;
     std::string path;
-    std::string error;  // of a failed frame: one line
-    FrameStatistics statistics;
+    std::string error{};  // of a failed frame: one line
+    FrameStatistics statistics{};
 };
 
 // The frames of a sequence, in the order asked for; those after an interrupt are missing.
