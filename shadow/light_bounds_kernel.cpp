@@ -1,0 +1,171 @@
+#include "shadow/light_bounds_kernel.h"
+
+#include "core/frame/visibility.h"
+#include "core/simd/kernel.h"
+#include "shadow/light_bounds.h"
+#include "shadow/shade_point.h"
+
+namespace penumbra::PENUMBRA_ISA {
+namespace {
+
+using shadow::BlockBounds;
+using shadow::kBlocks;
+using shadow::kBlockSize;
+
+// Balls are made larger, and bounds wider, than exact arithmetic would need.
+constexpr float kRelativeSlack = 1e-4f;
+constexpr float kPositionSlack = 1e-6f;  // of the largest coordinate: rounding of positions
+constexpr float kHuge = 1e30f;
+
+Vec3<F> load3(const PlaneView3<const float>& planes, int x, int y) {
+    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
+            simd::load<F>(planes[2].row(y) + x)};
+}
+
+struct Range3 {
+    Vec3<F> low{F(kHuge), F(kHuge), F(kHuge)};
+    Vec3<F> high{F(-kHuge), F(-kHuge), F(-kHuge)};
+
+    void include(const Vec3<F>& v, const M& where) {
+        low = select(where, Vec3<F>{simd::min(v.x, low.x), simd::min(v.y, low.y), simd::min(v.z, low.z)},
+                     low);
+        high = select(where,
+                      Vec3<F>{simd::max(v.x, high.x), simd::max(v.y, high.y), simd::max(v.z, high.z)},
+                      high);
+    }
+};
+
+// Minima and maxima do not depend on the order, hence not on the number of lanes.
+float lowest(const F& v) {
+    alignas(64) float lanes[kLanes];
+    simd::store(lanes, v);
+    float low = lanes[0];
+    for (int i = 1; i < kLanes; ++i) low = simd::min(lanes[i], low);
+    return low;
+}
+float highest(const F& v) { return -lowest(-v); }
+
+// The most of the specular lobe's density: its map shrinks no vector by more than its smallest
+// singular value s, so that density = z det / (pi |K w|^4) <= det / (pi s^3).
+F lobe_peak(const LtcEntry<F>& entry) {
+    const F trace = simd::fma(entry.m00, entry.m00, entry.m02 * entry.m02) +
+                    simd::fma(entry.m20, entry.m20, entry.m22 * entry.m22);
+    const F squared_determinant = entry.determinant * entry.determinant;
+    const F root = simd::sqrt(simd::max(simd::fma(trace, trace, F(-4) * squared_determinant), F(0)));
+    const F squared_smallest = simd::min(F(2) * squared_determinant / (trace + root), F(1));
+    return F(kOneOverPi) * entry.determinant / (squared_smallest * simd::sqrt(squared_smallest));
+}
+
+struct Ranges {
+    Range3 position, normal, albedo, specular, specular_peak;
+    M any_hit = M(false);
+};
+
+void include_pixels(const shadow::BoundsJob& job, int x, int y, Ranges& ranges) {
+    const ConstSurfaceView& surface = job.surface;
+    const M hit = simd::load<U>(surface.material.row(y) + x) != U(kNothing);
+    if (!simd::any(hit)) return;
+    const Vec3<F> position = load3(surface.position, x, y);
+    const Vec3<F> normal = load3(surface.normal, x, y);
+    const Vec3<F> to_eye = broadcast<F>(job.eye) - position;
+    const F inverse = F(1) / simd::sqrt(simd::max(length_squared(to_eye), F(1e-36f)));
+    const F roughness = simd::load<F>(surface.roughness.row(y) + x);
+    const LtcEntry<F> entry = ltc_lookup(roughness, dot(normal, to_eye * inverse));
+    const Brdf<F> brdf = make_brdf(load3(surface.base_color, x, y), roughness,
+                                   simd::load<F>(surface.metallic.row(y) + x),
+                                   simd::load<F>(surface.dielectric_f0.row(y) + x));
+    const Vec3<F> scale = ltc_specular_scale(entry, brdf.f0);
+    ranges.position.include(position, hit);
+    ranges.normal.include(normal, hit);
+    ranges.albedo.include(brdf.diffuse_albedo, hit);
+    ranges.specular.include(scale, hit);
+    ranges.specular_peak.include(scale * lobe_peak(entry), hit);
+    ranges.any_hit |= hit;
+}
+
+// Center and half diagonal of a box.
+float ball(const Range3& range, int block, float (&center)[3][kBlocks]) {
+    const float low[3] = {lowest(range.low.x), lowest(range.low.y), lowest(range.low.z)};
+    const float high[3] = {highest(range.high.x), highest(range.high.y), highest(range.high.z)};
+    float squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float half = 0.5f * (high[axis] - low[axis]);
+        center[axis][block] = 0.5f * (high[axis] + low[axis]);
+        squared = simd::fma(half, half, squared);
+    }
+    return simd::sqrt(squared);
+}
+
+void high3(const Vec3<F>& v, int block, float (&to)[3][kBlocks]) {
+    to[0][block] = highest(v.x);
+    to[1][block] = highest(v.y);
+    to[2][block] = highest(v.z);
+}
+
+void bound_block(const shadow::BoundsJob& job, int block, BlockBounds& bounds) {
+    const int x0 = block % shadow::kBlocksPerRow * kBlockSize;
+    const int y0 = block / shadow::kBlocksPerRow * kBlockSize;
+    Ranges ranges;
+    for (int y = y0; y < y0 + kBlockSize; ++y)
+        for (int x = x0; x < x0 + kBlockSize; x += kLanes) include_pixels(job, x, y, ranges);
+    const float radius = ball(ranges.position, block, bounds.center);
+    const float largest = simd::max(
+        simd::max(simd::abs(bounds.center[0][block]), simd::abs(bounds.center[1][block])),
+        simd::abs(bounds.center[2][block]));
+    bounds.radius[block] =
+        simd::any(ranges.any_hit)
+            ? simd::fma(radius, 1 + kRelativeSlack, kPositionSlack * (largest + radius))
+            : -1.0f;
+    bounds.normal_radius[block] =
+        ball(ranges.normal, block, bounds.normal_center) * (1 + kRelativeSlack) + kPositionSlack;
+    bounds.albedo_low[0][block] = lowest(ranges.albedo.low.x);
+    bounds.albedo_low[1][block] = lowest(ranges.albedo.low.y);
+    bounds.albedo_low[2][block] = lowest(ranges.albedo.low.z);
+    high3(ranges.albedo.high, block, bounds.albedo_high);
+    high3(ranges.specular.high, block, bounds.specular);
+    high3(ranges.specular_peak.high, block, bounds.specular_peak);
+}
+
+Vec3<F> load_blocks(const float (&from)[3][kBlocks], int block) {
+    return {simd::load<F>(from[0] + block), simd::load<F>(from[1] + block),
+            simd::load<F>(from[2] + block)};
+}
+
+Vec3<F> min3(const Vec3<F>& a, const Vec3<F>& b) {
+    return {simd::min(a.x, b.x), simd::min(a.y, b.y), simd::min(a.z, b.z)};
+}
+
+// One light over as many blocks as there are lanes.
+void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, int block, float* upper,
+                 float* lower) {
+    const F radius = simd::load<F>(bounds.radius + block);
+    const M used = radius >= F(0);
+    const shadow::SurfaceBall<F> ball{load_blocks(bounds.center, block), radius,
+                                      load_blocks(bounds.normal_center, block),
+                                      simd::load<F>(bounds.normal_radius + block)};
+    const PolygonShape<float>& shape = light.shape;
+    const auto form = shadow::bound_form_factor(
+        ball, broadcast<F>(shape.center), F(shape.radius * (1 + kRelativeSlack)),
+        broadcast<F>(shape.normal), F(shape.area), shape.two_sided);
+    const Vec3<F> radiance = broadcast<F>(light.radiance);
+    const Vec3<F> glossy = min3(load_blocks(bounds.specular, block),
+                                load_blocks(bounds.specular_peak, block) * form.solid_angle_high);
+    const Vec3<F> high = fma(load_blocks(bounds.albedo_high, block), form.lambert_high, glossy);
+    const Vec3<F> low = load_blocks(bounds.albedo_low, block) * form.lambert_low;
+    simd::store(upper + block, simd::select(used, luminance(high * radiance) * F(1 + kRelativeSlack),
+                                            F(0)));
+    simd::store(lower + block, simd::select(used, luminance(low * radiance) * F(1 - kRelativeSlack),
+                                            F(0)));
+}
+
+}  // namespace
+
+void bound_lights(const shadow::BoundsJob& job) {
+    BlockBounds bounds;
+    for (int block = 0; block < kBlocks; ++block) bound_block(job, block, bounds);
+    for (int i = 0; i < job.light_count; ++i)
+        for (int block = 0; block < kBlocks; block += kLanes)
+            bound_light(job.lights[i], bounds, block, job.upper + i * kBlocks, job.lower + i * kBlocks);
+}
+
+}  // namespace penumbra::PENUMBRA_ISA
