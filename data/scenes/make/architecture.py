@@ -45,7 +45,7 @@ def column_profile(height, radius):
         points.append((radius * (1.0 - 0.16 * t) + swelling, 0.22 + (height - 0.42) * t))
     top = height - 0.14
     points += arc((radius * 0.84 + 0.01, top), 0.03, -80, 80, 5)
-    return points + [(radius * 1.35, height - 0.07)]
+    return points + [(radius * 1.35, height - 0.065)]
 
 
 def add_column(mesh, azimuth, distance, height, radius):
@@ -60,8 +60,9 @@ def add_column(mesh, azimuth, distance, height, radius):
     for piece in (profile, *caps):
         add_lathe(mesh, "column", piece, 28, place)
     add_box(mesh, "column", place((0, 0.052, 0)), (radius * 1.5, 0.052, radius * 1.5), -azimuth)
-    add_box(mesh, "column", place((0, height - 0.035, 0)),
-            (radius * 1.45, 0.035, radius * 1.45), -azimuth)
+    # The slab reaches 1 cm into the beam and the shaft 5 mm into the slab: no faces coincide.
+    add_box(mesh, "column", place((0, height - 0.03, 0)),
+            (radius * 1.45, 0.04, radius * 1.45), -azimuth)
 
 
 def add_beam(mesh, material, distances, heights, azimuths, pieces):

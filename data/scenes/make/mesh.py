@@ -64,7 +64,7 @@ class Mesh:
         self.faces = []  # (material, text of the corners)
 
     def add_face(self, material, corners):
-        """`corners` are (position, normal or None, uv or None); triangles with two equal corners go."""
+        """`corners` are (position, normal or None, uv or None); equal corners are merged."""
         texts, seen = [], []
         for position, normal, uv in corners:
             p = self.positions.add(position)

@@ -1,8 +1,8 @@
 """Measured spectra to scene-linear Rec. 709.
 
 Colour matching functions: the multi-lobe fits of Wyman, Sloan and Shirley, "Simple Analytic
-Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013, section 2.2. Illuminant D65:
-the CIE's table at 10 nm. Spectra are linear between their samples.
+Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013, section 2.2. Illuminant
+D65: the CIE's table at 10 nm. Spectra are linear between their samples.
 """
 
 import math

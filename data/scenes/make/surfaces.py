@@ -1,6 +1,7 @@
-"""Procedural surfaces that tile: bricks and planks as height, colour and roughness over the unit square.
+"""Procedural surfaces that tile: bricks and planks as height, colour and roughness.
 
-A surface is a function (u, v) -> (height in texture widths, colour as sRGB 0..1, roughness 0..1).
+A surface is a function of (u, v) in the unit square, v up, which returns the height in texture
+widths, the colour as sRGB and the roughness, both in 0..1.
 Everything random is a hash of integers.
 """
 

@@ -40,7 +40,7 @@ def _y_up(a):
 
 
 def add_teapot(mesh, material, pieces):
-    """Each patch becomes pieces x pieces quadrangles of two triangles, cut along the shorter diagonal."""
+    """Each patch becomes pieces x pieces quadrangles, cut along their shorter diagonal."""
     for patch in patches():
         grid = []
         for j in range(pieces + 1):

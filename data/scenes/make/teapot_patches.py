@@ -1,10 +1,10 @@
 """Newell's teapot: 32 bicubic Bezier patches over 306 control points, and its tessellation.
 
 Martin Newell, "The utilization of procedure models in digital image synthesis" (1975); the numbers
-are those of the data set that circulates since as `teapot` / `teaset` (z up, the spout along +x).
-Six bands turn about the z axis: a band is the four rows (radius, height) of a quarter, whose control
-points are (r, 0), (r, -k r), (k r, -r), (0, -r) with k = 0.56, and its three rotations. The knob's
-second row alone has k = 0.5625. Handle and spout are given for y <= 0 and mirrored.
+are those of the data set that has circulated ever since (z up, the spout along +x). Six bands turn
+about the z axis: a band is the four rows (radius, height) of a quarter, whose control points are
+(r, 0), (r, -k r), (k r, -r), (0, -r) with k = 0.56, and its three rotations. The knob's second row
+alone has k = 0.5625. Handle and spout are given for y <= 0 and mirrored.
 """
 
 QUARTER = 0.56
@@ -19,8 +19,8 @@ BANDS = [  # rows (radius, height); walking along them, the outside lies to the 
     [(1.5, 0.15), (1.5, 0.075), (1.425, 0.0), (0.0, 0.0)],           # bottom
 ]
 
-# Rows of (x, z) pairs on the seam y = 0 and beside it at y = -width: a row's control points are
-# (x0, 0, z0), (x0, -width, z0), (x1, -width, z1), (x1, 0, z1).
+# Rows (x0, z0, x1, z1, width) with the control points (x0, 0, z0), (x0, -width, z0),
+# (x1, -width, z1), (x1, 0, z1).
 HANDLE = [
     [(-1.6, 2.025, -1.5, 2.25, 0.3), (-2.3, 2.025, -2.5, 2.25, 0.3),
      (-2.7, 2.025, -3.0, 2.25, 0.3), (-2.7, 1.8, -3.0, 1.8, 0.3)],
@@ -48,8 +48,10 @@ def _tube_row(x0, z0, x1, z1, width):
 
 
 def patches():
-    """All 32 as four rows of four control points (x, y, z), z up; the normal dS/du x dS/dv is outward
-    where u runs along a row and v from row to row."""
+    """All 32 as four rows of four control points (x, y, z), z up.
+
+    With u along a row and v from row to row, dS/du x dS/dv points outwards.
+    """
     result = []
     for band in BANDS:
         for quarter_turns in range(4):

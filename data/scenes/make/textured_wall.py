@@ -1,4 +1,4 @@
-"""Writes textured-wall/: a brick wall and a glossy plank floor with procedural maps, and a bench."""
+"""Writes textured-wall/: a brick wall and a glossy plank floor with procedural maps."""
 
 import math
 from pathlib import Path

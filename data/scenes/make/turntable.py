@@ -86,7 +86,7 @@ def camera():
         eye = [round(distance * math.sin(azimuth), 4), round(height, 4),
                round(distance * math.cos(azimuth), 4)]
         keys.append({"time": frame / RATE, "eye": eye})
-    return {"eye": keys[0]["eye"], "target": [0, 1.12, 0], "up": [0, 1, 0], "vfov": 36,
+    return {"eye": keys[0]["eye"], "target": [0, 1.2, 0], "up": [0, 1, 0], "vfov": 33,
             "keys": keys}
 
 
