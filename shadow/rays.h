@@ -38,7 +38,6 @@ struct RayScratch {
         Plane<float> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
         Plane<float> near_limit;  // 0
         Plane<float> far_limit;   // -infinity once occluded
-        Plane<std::uint16_t> pixel;
     } packed;
 };
 

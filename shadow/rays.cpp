@@ -1,0 +1,54 @@
+#include "shadow/rays.h"
+
+#include "core/error.h"
+#include "shadow/rays_kernel.h"
+
+namespace penumbra::shadow {
+namespace {
+
+// Rays end this many times the light's radius above its plane, at least: faces of one light lie in
+// its plane up to the tolerance with which they were merged, and must not shadow it.
+constexpr float kMarginPerRadius = 1e-5f;
+
+Plane<float> tile_plane() {
+    return Plane<float>(kTileSize, kTileSize);
+}
+
+RayKernelInputs kernel_inputs(const RayInputs& inputs, const LightSample& sample) {
+    const PolygonLight& light = *sample.light;
+    RayKernelInputs kernel;
+    kernel.inputs = &inputs;
+    kernel.shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
+    kernel.radiance = light.radiance;
+    kernel.shares = share_samples(sample.count);
+    kernel.from_brdf = sample.index >= kernel.shares.light;
+    const int index = kernel.from_brdf ? sample.index - kernel.shares.light : sample.index;
+    const int count = kernel.from_brdf ? kernel.shares.brdf : kernel.shares.light;
+    const std::uint32_t dimension = 2 * sample.light_index + (kernel.from_brdf ? 1 : 0);
+    kernel.sequence = make_sequence(inputs.frame, dimension, count);
+    kernel.sample_in_technique = static_cast<std::uint32_t>(index);
+    kernel.range_margin = kernel.shape.plane_tolerance + kMarginPerRadius * kernel.shape.radius;
+    static constexpr float kNoInstances = 0;
+    kernel.offset_scales =
+        inputs.offset_scales.empty() ? &kNoInstances : inputs.offset_scales.data();
+    return kernel;
+}
+
+}  // namespace
+
+RayScratch::RayScratch()
+    : origin(make_plane3<float>(kTileSize, kTileSize)),
+      direction(make_plane3<float>(kTileSize, kTileSize)),
+      range(tile_plane()),
+      weight(make_plane3<float>(kTileSize, kTileSize)),
+      packed{tile_plane(), tile_plane(), tile_plane(), tile_plane(),
+             tile_plane(), tile_plane(), tile_plane(), tile_plane()} {}
+
+void generate_rays(const RayInputs& inputs, const LightSample& sample, RayScratch& scratch) {
+    PENUMBRA_ASSERT(sample.index >= 0 && sample.index < sample.count, "sample {} of {}",
+                    sample.index, sample.count);
+    const RayKernelInputs kernel = kernel_inputs(inputs, sample);
+    simd::pick(inputs.frame.isa, &avx2::generate_rays, &avx512::generate_rays)(kernel, scratch);
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,132 @@
+#include "shadow/trace.h"
+
+#include <xmmintrin.h>
+
+#include <array>
+
+namespace penumbra::shadow {
+namespace {
+
+// Rays are packed in squares of this many pixels a side: a row of a square is one 16-byte copy.
+constexpr int kSquare = 4;
+constexpr int kSquaresPerRow = kTileSize / kSquare;
+constexpr int kSquares = kSquaresPerRow * kSquaresPerRow;
+static_assert(kSquaresPerRow == 16);
+
+struct SquarePlace {
+    std::uint8_t x, y;  // pixels
+};
+
+constexpr std::array<SquarePlace, kSquares> squares_in_z_order() {
+    std::array<SquarePlace, kSquares> places{};
+    for (unsigned i = 0; i < kSquares; ++i) {
+        unsigned x = 0, y = 0;
+        for (unsigned bit = 0; bit < 4; ++bit) {
+            x |= ((i >> (2 * bit)) & 1u) << bit;
+            y |= ((i >> (2 * bit + 1)) & 1u) << bit;
+        }
+        places[i] = {static_cast<std::uint8_t>(kSquare * x),
+                     static_cast<std::uint8_t>(kSquare * y)};
+    }
+    return places;
+}
+constexpr std::array<SquarePlace, kSquares> kSquaresInZOrder = squares_in_z_order();
+
+constexpr unsigned kFullRow = (1u << kSquare) - 1;
+
+// The active pixels of one row of a square.
+unsigned row_bits(const std::array<std::uint64_t, kTileSize>& rows, SquarePlace place, int row) {
+    return static_cast<unsigned>(rows[place.y + row] >> place.x) & kFullRow;
+}
+
+constexpr int kArrays = 7;
+struct Copies {
+    const float* from[kArrays];
+    float* to[kArrays];
+};
+
+Copies copies(RayScratch& scratch) {
+    auto& packed = scratch.packed;
+    return {{scratch.origin[0].row(0), scratch.origin[1].row(0), scratch.origin[2].row(0),
+             scratch.direction[0].row(0), scratch.direction[1].row(0), scratch.direction[2].row(0),
+             scratch.range.row(0)},
+            {packed.origin_x.row(0), packed.origin_y.row(0), packed.origin_z.row(0),
+             packed.direction_x.row(0), packed.direction_y.row(0), packed.direction_z.row(0),
+             packed.far_limit.row(0)}};
+}
+
+// Appends the active rays of four neighbouring pixels; returns the new count.
+int append_row(const Copies& arrays, int pixel, unsigned active, int count) {
+    if (active == kFullRow) {
+        for (int i = 0; i < kArrays; ++i)
+            _mm_storeu_ps(arrays.to[i] + count, _mm_loadu_ps(arrays.from[i] + pixel));
+        return count + kSquare;
+    }
+    for (int column = 0; column < kSquare; ++column) {
+        if (!((active >> column) & 1u)) continue;
+        for (int i = 0; i < kArrays; ++i) arrays.to[i][count] = arrays.from[i][pixel + column];
+        ++count;
+    }
+    return count;
+}
+
+int pack(RayScratch& scratch) {
+    const Copies arrays = copies(scratch);
+    int count = 0;
+    for (const SquarePlace place : kSquaresInZOrder)
+        for (int row = 0; row < kSquare; ++row)
+            count = append_row(arrays, (place.y + row) * kTileSize + place.x,
+                               row_bits(scratch.active, place, row), count);
+    return count;
+}
+
+// The rays that are not blocked, of the next `active` ones from `count` on; moves `count` past
+// them.
+unsigned unpack_row(const float* far_limit, unsigned active, int& count) {
+    if (active == kFullRow) {
+        const int blocked = _mm_movemask_ps(_mm_loadu_ps(far_limit + count));
+        count += kSquare;
+        return ~static_cast<unsigned>(blocked) & kFullRow;
+    }
+    unsigned visible = 0;
+    for (int column = 0; column < kSquare; ++column) {
+        if (!((active >> column) & 1u)) continue;
+        if (far_limit[count++] >= 0) visible |= 1u << column;
+    }
+    return visible;
+}
+
+void unpack(RayScratch& scratch) {
+    const float* const far_limit = scratch.packed.far_limit.row(0);
+    scratch.visible.fill(0);
+    int count = 0;
+    for (const SquarePlace place : kSquaresInZOrder)
+        for (int row = 0; row < kSquare; ++row) {
+            const unsigned active = row_bits(scratch.active, place, row);
+            const std::uint64_t visible = unpack_row(far_limit, active, count);
+            scratch.visible[place.y + row] |= visible << place.x;
+        }
+}
+
+RayStream stream(RayScratch& scratch, int count) {
+    auto& packed = scratch.packed;
+    return {{packed.origin_x.row(0), packed.origin_y.row(0), packed.origin_z.row(0)},
+            {packed.direction_x.row(0), packed.direction_y.row(0), packed.direction_z.row(0)},
+            packed.near_limit.row(0),
+            packed.far_limit.row(0),
+            count};
+}
+
+}  // namespace
+
+void trace(const Occluders& occluders, Visibility visibility, RayScratch& scratch) {
+    if (visibility == Visibility::kForcedToOne) {
+        scratch.visible = scratch.active;
+        return;
+    }
+    const int count = pack(scratch);
+    if (count > 0) occluders.occlude(stream(scratch, count));
+    unpack(scratch);
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/frame/scene_view.h"
+#include "core/parallel/arena.h"
+
+// How large the numbers are that a point on a model's triangles is made of: what a shadow ray's
+// offset must be relative to.
+
+namespace penumbra::shadow {
+
+// In the space of the rays' tree: the world for fixed models, the object for moving ones.
+struct TriangleExtents {
+    float edge = 0;        // the largest extent of a triangle along an axis
+    float coordinate = 0;  // the largest magnitude of a coordinate
+};
+
+[[nodiscard]] TriangleExtents triangle_extents(const parallel::Arena& arena,
+                                               const Instance& instance);
+
+// Metres in the world. Rays into moving models are transformed: their rounding grows with all of
+// the object's coordinates and with its translation.
+[[nodiscard]] float offset_scale(const TriangleExtents& extents, const Instance& instance);
+
+}  // namespace penumbra::shadow
