@@ -8,9 +8,9 @@ namespace penumbra::shadow {
 
 template <class F>
 struct SurfaceBall {
-    Vec3<F> center;   // of the points, world
+    Vec3<F> center;  // of the points, world
     F radius;
-    Vec3<F> normal;   // center of the shading normals
+    Vec3<F> normal;  // center of the shading normals
     F normal_radius;
 };
 
@@ -20,10 +20,10 @@ struct FormFactorBounds {
     F solid_angle_high;           // of the light's part above the horizon
 };
 
-// The light is a ball (`light_center`, `light_radius`) that holds a polygon of `area` with unit normal
-// `light_normal`. With r the distance, e the point's distance from the light's plane and n.v the
-// height above its horizon, the form factor is 1/pi * integral of e (n.v) / r^4 over the area: each
-// factor is bounded by the balls.
+// The light is a ball (`light_center`, `light_radius`) that holds a polygon of `area` with unit
+// normal `light_normal`. With r the distance, e the point's distance from the light's plane and n.v
+// the height above its horizon, the form factor is 1/pi * integral of e (n.v) / r^4 over the area:
+// each factor is bounded by the balls.
 template <class F>
 FormFactorBounds<F> bound_form_factor(const SurfaceBall<F>& surface, const Vec3<F>& light_center,
                                       F light_radius, const Vec3<F>& light_normal, F area,
@@ -40,7 +40,8 @@ FormFactorBounds<F> bound_form_factor(const SurfaceBall<F>& surface, const Vec3<
     const F front_low = simd::max(in_front - surface.radius, F(0));
 
     const F height = dot(surface.normal, to_light);
-    const F height_slack = simd::fma(length(surface.normal), slack, surface.normal_radius * farthest);
+    const F height_slack =
+        simd::fma(length(surface.normal), slack, surface.normal_radius * farthest);
     const F height_high = height + height_slack;
     const F height_low = simd::max(height - height_slack, F(0));
 

@@ -27,11 +27,12 @@ struct Range3 {
     Vec3<F> high{F(-kHuge), F(-kHuge), F(-kHuge)};
 
     void include(const Vec3<F>& v, const M& where) {
-        low = select(where, Vec3<F>{simd::min(v.x, low.x), simd::min(v.y, low.y), simd::min(v.z, low.z)},
+        low = select(where,
+                     Vec3<F>{simd::min(v.x, low.x), simd::min(v.y, low.y), simd::min(v.z, low.z)},
                      low);
-        high = select(where,
-                      Vec3<F>{simd::max(v.x, high.x), simd::max(v.y, high.y), simd::max(v.z, high.z)},
-                      high);
+        high = select(
+            where, Vec3<F>{simd::max(v.x, high.x), simd::max(v.y, high.y), simd::max(v.z, high.z)},
+            high);
     }
 };
 
@@ -43,7 +44,9 @@ float lowest(const F& v) {
     for (int i = 1; i < kLanes; ++i) low = simd::min(lanes[i], low);
     return low;
 }
-float highest(const F& v) { return -lowest(-v); }
+float highest(const F& v) {
+    return -lowest(-v);
+}
 
 // The most of the specular lobe's density: its map shrinks no vector by more than its smallest
 // singular value s, so that density = z det / (pi |K w|^4) <= det / (pi s^3).
@@ -51,7 +54,8 @@ F lobe_peak(const LtcEntry<F>& entry) {
     const F trace = simd::fma(entry.m00, entry.m00, entry.m02 * entry.m02) +
                     simd::fma(entry.m20, entry.m20, entry.m22 * entry.m22);
     const F squared_determinant = entry.determinant * entry.determinant;
-    const F root = simd::sqrt(simd::max(simd::fma(trace, trace, F(-4) * squared_determinant), F(0)));
+    const F root =
+        simd::sqrt(simd::max(simd::fma(trace, trace, F(-4) * squared_determinant), F(0)));
     const F squared_smallest = simd::min(F(2) * squared_determinant / (trace + root), F(1));
     return F(kOneOverPi) * entry.determinant / (squared_smallest * simd::sqrt(squared_smallest));
 }
@@ -109,9 +113,9 @@ void bound_block(const shadow::BoundsJob& job, int block, BlockBounds& bounds) {
     for (int y = y0; y < y0 + kBlockSize; ++y)
         for (int x = x0; x < x0 + kBlockSize; x += kLanes) include_pixels(job, x, y, ranges);
     const float radius = ball(ranges.position, block, bounds.center);
-    const float largest = simd::max(
-        simd::max(simd::abs(bounds.center[0][block]), simd::abs(bounds.center[1][block])),
-        simd::abs(bounds.center[2][block]));
+    const float largest =
+        simd::max(simd::max(simd::abs(bounds.center[0][block]), simd::abs(bounds.center[1][block])),
+                  simd::abs(bounds.center[2][block]));
     bounds.radius[block] =
         simd::any(ranges.any_hit)
             ? simd::fma(radius, 1 + kRelativeSlack, kPositionSlack * (largest + radius))
@@ -136,8 +140,8 @@ Vec3<F> min3(const Vec3<F>& a, const Vec3<F>& b) {
 }
 
 // One light over as many blocks as there are lanes.
-void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, int block, float* upper,
-                 float* lower) {
+void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, int block,
+                 float* upper, float* lower) {
     const F radius = simd::load<F>(bounds.radius + block);
     const M used = radius >= F(0);
     const shadow::SurfaceBall<F> ball{load_blocks(bounds.center, block), radius,
@@ -152,10 +156,10 @@ void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, in
                                 load_blocks(bounds.specular_peak, block) * form.solid_angle_high);
     const Vec3<F> high = fma(load_blocks(bounds.albedo_high, block), form.lambert_high, glossy);
     const Vec3<F> low = load_blocks(bounds.albedo_low, block) * form.lambert_low;
-    simd::store(upper + block, simd::select(used, luminance(high * radiance) * F(1 + kRelativeSlack),
-                                            F(0)));
-    simd::store(lower + block, simd::select(used, luminance(low * radiance) * F(1 - kRelativeSlack),
-                                            F(0)));
+    simd::store(upper + block,
+                simd::select(used, luminance(high * radiance) * F(1 + kRelativeSlack), F(0)));
+    simd::store(lower + block,
+                simd::select(used, luminance(low * radiance) * F(1 - kRelativeSlack), F(0)));
 }
 
 }  // namespace
@@ -165,7 +169,8 @@ void bound_lights(const shadow::BoundsJob& job) {
     for (int block = 0; block < kBlocks; ++block) bound_block(job, block, bounds);
     for (int i = 0; i < job.light_count; ++i)
         for (int block = 0; block < kBlocks; block += kLanes)
-            bound_light(job.lights[i], bounds, block, job.upper + i * kBlocks, job.lower + i * kBlocks);
+            bound_light(job.lights[i], bounds, block, job.upper + i * kBlocks,
+                        job.lower + i * kBlocks);
 }
 
 }  // namespace penumbra::PENUMBRA_ISA

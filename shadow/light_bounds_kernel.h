@@ -16,7 +16,7 @@ struct alignas(64) BlockBounds {
     float center[3][kBlocks], radius[kBlocks];                // of the positions
     float normal_center[3][kBlocks], normal_radius[kBlocks];  // of the shading normals
     float albedo_low[3][kBlocks], albedo_high[3][kBlocks];    // of the diffuse lobe
-    float specular[3][kBlocks];       // largest ltc_specular_scale
+    float specular[3][kBlocks];                               // largest ltc_specular_scale
     float specular_peak[3][kBlocks];  // largest ltc_specular_scale * density per steradian
 };
 

@@ -32,7 +32,8 @@ bool try_to_cull(const float* upper, const float* lower, double tolerance, Block
         new_culled[b] += upper[b];
         new_kept[b] -= lower[b];
         // The sums are rounded, to 1e-13 of what was ever in them.
-        if (new_culled[b] > 0 && new_culled[b] > tolerance * (new_kept[b] * (1 - 1e-9))) return false;
+        if (new_culled[b] > 0 && new_culled[b] > tolerance * (new_kept[b] * (1 - 1e-9)))
+            return false;
     }
     culled = new_culled;
     kept = new_kept;
@@ -61,13 +62,13 @@ void cull_lights(const LightSet& set, const SceneView& view, const FrameContext&
 
     tile.upper_.resize(count * kBlocks);
     tile.lower_.resize(count * kBlocks);
-    simd::pick(context.isa, &avx2::bound_lights, &avx512::bound_lights)(
-        {.lights = set.lights.data(),
-         .light_count = static_cast<int>(count),
-         .eye = view.camera.eye,
-         .surface = surface,
-         .upper = tile.upper_.data(),
-         .lower = tile.lower_.data()});
+    simd::pick(context.isa, &avx2::bound_lights,
+               &avx512::bound_lights)({.lights = set.lights.data(),
+                                       .light_count = static_cast<int>(count),
+                                       .eye = view.camera.eye,
+                                       .surface = surface,
+                                       .upper = tile.upper_.data(),
+                                       .lower = tile.lower_.data()});
 
     BlockSums kept{}, culled{};
     for (std::size_t i = 0; i < count; ++i)
@@ -83,7 +84,8 @@ void cull_lights(const LightSet& set, const SceneView& view, const FrameContext&
         return tile.rank_[a] != tile.rank_[b] ? tile.rank_[a] < tile.rank_[b] : a < b;
     });
     for (const std::uint32_t i : tile.order_)
-        if (try_to_cull(&tile.upper_[i * kBlocks], &tile.lower_[i * kBlocks], tolerance, culled, kept))
+        if (try_to_cull(&tile.upper_[i * kBlocks], &tile.lower_[i * kBlocks], tolerance, culled,
+                        kept))
             tile.rank_[i] = 0;
     std::erase_if(tile.kept_, [&](std::uint32_t i) { return tile.rank_[i] <= 0; });
 }

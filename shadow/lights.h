@@ -43,17 +43,17 @@ class TileLights {
     std::vector<float> upper_, lower_, rank_;
 };
 
-// Chooses the lights of a tile; `tolerance` 0 keeps all, and so do scenes of up to 3 lights. Otherwise
-// leaves out lights that provably reach no pixel of the tile, and of the others the dimmest, as long
-// as this holds at every pixel:
+// Chooses the lights of a tile; `tolerance` 0 keeps all, and so do scenes of up to 3 lights.
+// Otherwise leaves out lights that provably reach no pixel of the tile, and of the others the
+// dimmest, as long as this holds at every pixel:
 //
 //     luminance of the culled lights' U <= tolerance * luminance of the kept lights' U,
 //
-// U being diffuse + glossy. It is a guarantee: upper bounds of the culled lights against lower bounds
-// of the kept ones' diffuse part, over the positions, normals and materials of each 16 x 16 block.
-// Where such a lower bound is zero (metals, black surfaces, blocks that the kept lights reach only in
-// part) only lights that reach nothing are left out. A function of the tile's surface and the lights
-// alone.
+// U being diffuse + glossy. It is a guarantee: upper bounds of the culled lights against lower
+// bounds of the kept ones' diffuse part, over the positions, normals and materials of each 16 x 16
+// block. Where such a lower bound is zero (metals, black surfaces, blocks that the kept lights
+// reach only in part) only lights that reach nothing are left out. A function of the tile's surface
+// and the lights alone.
 void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
                  const ConstSurfaceView& surface, float tolerance, TileLights& tile);
 

@@ -1,0 +1,104 @@
+#include "shadow/draw_lights_kernel.h"
+
+#include "core/frame/visibility.h"
+#include "core/simd/kernel.h"
+
+namespace penumbra::PENUMBRA_ISA {
+namespace {
+
+// A light in the plane of a wall is seen and not swallowed by rounding: it may lie this much behind
+// the surface, relative to the depth.
+constexpr float kCoplanarBias = 0x1p-16f;
+
+void put(PlaneView<float> plane, int x, int y, const M& where, const F& value) {
+    if (!plane) return;
+    float* to = plane.row(y) + x;
+    simd::store(to, simd::select(where, value, simd::load<F>(to)));
+}
+void put(PlaneView<std::uint32_t> plane, int x, int y, const M& where, std::uint32_t value) {
+    if (!plane) return;
+    std::uint32_t* to = plane.row(y) + x;
+    simd::store(to, simd::select(where, U(value), simd::load<U>(to)));
+}
+void put(const PlaneView3<float>& planes, int x, int y, const M& where, const Vec3<F>& value) {
+    put(planes[0], x, y, where, value.x);
+    put(planes[1], x, y, where, value.y);
+    put(planes[2], x, y, where, value.z);
+}
+
+// What the pixels of a block show of the lights.
+struct Shown {
+    M seen = M(false);
+    F depth;
+    Vec3<F> radiance{F(0), F(0), F(0)};
+    Vec3<F> normal{F(0), F(0), F(0)};
+};
+
+void show(const shadow::DrawnLight& light, const Vec3<F>& direction, float near_distance,
+          Shown& shown) {
+    M inside = M(true);
+    for (int i = 0; i < light.edge_count; ++i)
+        inside &= dot(broadcast<F>(light.edge_normals[i]), direction) >= F(0);
+    if (!simd::any(inside)) return;
+    // Directions advance by 1 along the view axis, so the ray's parameter is the depth.
+    const F depth = F(light.plane_distance) / dot(broadcast<F>(light.normal), direction);
+    const M nearer =
+        inside & (depth >= F(near_distance)) & (depth * F(1 - kCoplanarBias) < shown.depth);
+    const M wins = nearer & ((!shown.seen) | (depth < shown.depth));
+    shown.depth = simd::select(wins, depth, shown.depth);
+    shown.radiance = select(wins, broadcast<F>(light.radiance), shown.radiance);
+    shown.normal = select(wins, broadcast<F>(light.normal), shown.normal);
+    shown.seen |= wins;
+}
+
+Vec2<F> project(const Camera& camera, const Vec3<F>& view) {
+    const F scale = F(camera.focal) / view.z;
+    return {simd::fma(view.x, scale, F(camera.center_x)),
+            simd::fma(-view.y, scale, F(camera.center_y))};
+}
+
+void write(const shadow::DrawJob& job, int x, int y, const Vec3<F>& direction, const Shown& shown) {
+    const SurfaceView& s = job.surface;
+    const M m = shown.seen;
+    const Vec3<F> zero{F(0), F(0), F(0)};
+    const Vec3<F> position = fma(direction, shown.depth, broadcast<F>(job.camera.eye));
+    put(s.position, x, y, m, position);
+    put(s.shadow_origin, x, y, m, position);
+    put(s.geometric_normal, x, y, m, shown.normal);
+    put(s.normal, x, y, m, shown.normal);
+    put(s.base_color, x, y, m, zero);
+    put(s.roughness, x, y, m, F(0));
+    put(s.metallic, x, y, m, F(0));
+    put(s.dielectric_f0, x, y, m, F(0));
+    put(s.emission, x, y, m, shown.radiance);
+    put(s.depth, x, y, m, shown.depth);
+    // Both from the rounded position, like the motion of surfaces: what rests moves by exactly 0.
+    Vec3<F> view_before = job.previous_camera.view_from_world(position);
+    view_before.z = simd::max(view_before.z, F(job.previous_camera.near_distance));
+    const Vec2<F> motion = project(job.camera, job.camera.view_from_world(position)) -
+                           project(job.previous_camera, view_before);
+    put(s.motion_x, x, y, m, motion.x);
+    put(s.motion_y, x, y, m, motion.y);
+    put(s.instance, x, y, m, kNothing);
+    put(s.triangle, x, y, m, kNothing);
+    put(s.material, x, y, m, kNothing);
+}
+
+}  // namespace
+
+void draw_lights_in_tile(const shadow::DrawJob& job) {
+    for (int y = 0; y < kTileSize; ++y) {
+        for (int x = 0; x < kTileSize; x += kLanes) {
+            const F pixel_x = simd::to_float(simd::iota<I>() + I(job.x0 + x)) + F(0.5f);
+            const F pixel_y = F(static_cast<float>(job.y0 + y) + 0.5f);
+            const Vec3<F> direction = job.camera.direction(pixel_x, pixel_y);
+            Shown shown;
+            shown.depth = simd::load<F>(job.surface.depth.row(y) + x);
+            for (int i = 0; i < job.light_count; ++i)
+                show(job.lights[i], direction, job.camera.near_distance, shown);
+            if (simd::any(shown.seen)) write(job, x, y, direction, shown);
+        }
+    }
+}
+
+}  // namespace penumbra::PENUMBRA_ISA
