@@ -22,7 +22,10 @@ struct Instance {
     Affine3f previous_from_current;  // world position now -> world position in the previous frame
     bool is_animated = false;        // has a track that moves at any time of the scene
     bool moved = false;              // world_from_object differs from the previous evaluated frame's
-    bool flips_winding = false;      // the transform mirrors
+    // The transform mirrors: the outside of a face (the side that an emissive one emits to) is then the
+    // side from which its world vertices run clockwise. Normals are right already.
+    bool flips_winding = false;
+    Vec3f bounds_min{}, bounds_max{};  // of the positions, world
 };
 
 // A light of this frame: convex, planar, emitting to the side of `normal` (both, if two-sided).
@@ -60,7 +63,11 @@ struct FilmSize {
     int height = 0;
 };
 
-// Evaluates the scene at a time. `reuse` is the view of another time of the same scene, or an empty
+// The times of a frame of the scene's grid.
+[[nodiscard]] EvaluateTimes times_of_frame(const Animation& animation, int frame);
+
+// Evaluates the scene at a time. Throws InputError where the animation makes the camera or a light
+// degenerate. `reuse` is the view of another time of the same scene, or an empty
 // one: what did not move is taken over from it, but the result does not depend on it.
 void evaluate(const Scene& scene, EvaluateTimes times, FilmSize film, SceneView& reuse);
 

@@ -92,6 +92,10 @@ struct Animation {
     double frames_per_second = 24;
     int first_frame = 1;
     int last_frame = 1;
+
+    [[nodiscard]] double seconds(int frame) const {
+        return (static_cast<double>(frame) - first_frame) / frames_per_second;
+    }
 };
 
 struct Scene {

@@ -38,6 +38,9 @@ struct TransformTrack {
 };
 [[nodiscard]] Affine3f evaluate(const TransformTrack& track, double time);
 
+// Degrees about x, then y, then z.
+[[nodiscard]] glm::dquat rotation_from_degrees(const Vec3d& degrees);
+
 // A polygon is a rect (center, half-axes u and v) or a list of vertices.
 struct LightPolygonTrack {
     std::vector<Vec3Track> vertices;  // 3 to 8 of them for a polygon; empty for a rect

@@ -1,0 +1,107 @@
+#include "core/scene/read_lights.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "core/scene/light_polygon.h"
+#include "core/scene/read_tracks.h"
+
+namespace penumbra {
+namespace {
+
+constexpr json::Range kPosition{-1e9, 1e9};
+
+void check_type(const json::Node& node) {
+    const json::Node type = node.require("type");
+    const std::string& name = type.text();
+    if (name == "rect" || name == "polygon") return;
+    const std::vector<std::string> later{"disk", "sphere", "ellipsoid", "box", "line",
+                                         "mesh", "point",  "spot",      "sun"};
+    if (std::find(later.begin(), later.end(), name) != later.end())
+        type.fail(
+            fmt::format("\"{}\" is not supported yet; expected \"rect\" or \"polygon\"", name));
+    type.fail(fmt::format("expected \"rect\" or \"polygon\", got {}{}", type.shown(),
+                          json::suggestion(name, {"rect", "polygon"})));
+}
+
+void refuse_later_fields(const json::Node& node) {
+    for (const char* field : {"texture", "ies", "portal", "intensity"})
+        if (node.has(field)) node.fail(fmt::format("\"{}\" is not supported yet", field));
+}
+
+LightPolygon read_vertices(const json::Node& node) {
+    if (node.size() < 3 || node.size() > kMaxLightVertices)
+        node.fail(fmt::format("expected 3 to {} vertices, got {}", kMaxLightVertices, node.size()));
+    LightPolygon polygon;
+    polygon.vertex_count = static_cast<int>(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) polygon.vertices[i] = node[i].vector(kPosition);
+    return polygon;
+}
+
+std::vector<Vec3Track> vertex_tracks(const KeyedNode& node) {
+    const auto whole = node.track<LightPolygon>("vertices", std::nullopt, read_vertices);
+    const int count = whole.keys.front().value.vertex_count;
+    std::vector<Vec3Track> tracks(static_cast<std::size_t>(count));
+    for (const auto& [time, polygon] : whole.keys) {
+        if (polygon.vertex_count != count)
+            node.node().fail(fmt::format("vertices: {} of them at the first key, {} at {:g} s",
+                                         count, polygon.vertex_count, time));
+        for (std::size_t i = 0; i < tracks.size(); ++i)
+            tracks[i].keys.push_back({time, polygon.vertices[i]});
+    }
+    return tracks;
+}
+
+void check_shape(const KeyedNode& node, const Light& light) {
+    const auto check = [&](double time, const std::string& when) {
+        const auto vertices = vertices_at(light.polygon, time);
+        if (const auto problem = polygon_problem(vertices)) node.node().fail(when + *problem);
+    };
+    if (node.keys().empty()) check(0, "");
+    for (const auto& key : node.keys()) check(key.time, fmt::format("at {:g} s ", key.time));
+}
+
+Light read_light(const json::Node& node) {
+    check_type(node);
+    refuse_later_fields(node);
+    const bool is_rect = node.require("type").text() == "rect";
+    const KeyedNode keyed = is_rect ? KeyedNode(node, {"center", "u", "v", "radiance"},
+                                                {"name", "type", "two_sided", "visible"})
+                                    : KeyedNode(node, {"vertices", "radiance"},
+                                                {"name", "type", "two_sided", "visible"});
+    Light light;
+    if (const auto name = node.find("name")) light.name = name->text();
+    if (const auto flag = node.find("two_sided")) light.two_sided = flag->boolean();
+    if (const auto flag = node.find("visible")) light.visible = flag->boolean();
+    light.radiance = keyed.vectors("radiance", json::kNonNegative, std::nullopt);
+    if (is_rect) {
+        light.polygon.center = keyed.vectors("center", kPosition, std::nullopt);
+        light.polygon.half_axis_u = keyed.vectors("u", kPosition, std::nullopt);
+        light.polygon.half_axis_v = keyed.vectors("v", kPosition, std::nullopt);
+    } else {
+        light.polygon.vertices = vertex_tracks(keyed);
+    }
+    check_shape(keyed, light);
+    return light;
+}
+
+}  // namespace
+
+std::vector<Light> read_lights(const json::Node& document) {
+    std::vector<Light> lights;
+    const auto list = document.find("lights");
+    if (!list) return lights;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        const json::Node node = (*list)[i];
+        Light light = read_light(node);
+        if (light.name.empty()) light.name = fmt::format("light {}", i + 1);
+        if (!names.insert(light.name).second)
+            node.fail(fmt::format("name: \"{}\" is the name of another light too", light.name));
+        lights.push_back(std::move(light));
+    }
+    return lights;
+}
+
+}  // namespace penumbra
