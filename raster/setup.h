@@ -8,6 +8,7 @@
 #include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
 #include "raster/bins.h"
+#include "raster/classify_kernel.h"
 #include "raster/scene_tables.h"
 #include "raster/snapped.h"
 
@@ -15,15 +16,22 @@
 
 namespace penumbra::raster {
 
+// What one thread needs to sort a chunk.
+struct ChunkScratch {
+    BinningScratch binning;
+    std::vector<Candidate> candidates;
+    std::vector<std::uint32_t> crossing;
+};
+
 // What `prepare` leaves for the tiles of one frame. Owned by the caller and used again frame after
 // frame, so that memory is allocated once. It points into the SceneView it was prepared from.
 struct Geometry {
     PixelRect tile_window;  // the prepared window, grown to whole tiles
     SceneTables tables;
-    std::vector<SnappedVertex> vertices;     // of all instances, see InstanceTable::vertices
-    std::vector<Chunk> chunks;               // in (instance, triangle) order
-    Bins bins;                               // per tile and per block of tiles: parts of chunks
-    std::vector<BinningScratch> of_workers;  // one per thread of the arena
+    std::vector<SnappedVertex> vertices;   // of all instances, see InstanceTable::snapped
+    std::vector<Chunk> chunks;             // in (instance, triangle) order
+    Bins bins;                             // per tile and per block of tiles: parts of chunks
+    std::vector<ChunkScratch> of_workers;  // one per thread of the arena
 };
 
 // Transforms and snaps the vertices, drops the triangles that cannot cover a pixel of the window's

@@ -36,7 +36,8 @@ F mip_level(const TextureMap& map, const TextureFootprint<F>& footprint) {
         return simd::fma(x, x, y * y);
     };
     const F longer = simd::max(texels_squared(footprint.per_x), texels_squared(footprint.per_y));
-    return simd::clamp(F(0.5f) * log2(longer), F(0), F(static_cast<float>(map.level_count - 1)));
+    return simd::clamp(F(0.5f) * penumbra::log2(longer), F(0),
+                       F(static_cast<float>(map.level_count - 1)));
 }
 
 // Red, green and blue in [0, 65535] of one level, bilinear.
