@@ -27,12 +27,19 @@ shadow::Unshadowed<F> shade_block(const shadow::ShadeJob& job, int x, int y) {
                                         simd::load<F>(surface.roughness.row(y) + x),
                                         simd::load<F>(surface.metallic.row(y) + x),
                                         simd::load<F>(surface.dielectric_f0.row(y) + x)};
-    const shadow::ShadingLobes<F> lobes = shadow::make_lobes(point);
+    shadow::ShadingLobes<F> lobes;
     shadow::Unshadowed<F> sum;
+    bool is_lit = false;
     for (int i = 0; i < job.kept_count; ++i) {
         const shadow::ShadedLight& light = job.lights[job.kept[i]];
-        shadow::add_light(light.shape, light.radiance, point, lobes, sum);
+        const SeenPolygon<F> seen = see_polygon(light.shape, point.position, point.normal);
+        if (!simd::any(seen.lit)) continue;
+        // The table is only asked where some light arrives.
+        if (!is_lit) lobes = shadow::make_lobes(point);
+        is_lit = true;
+        shadow::add_light(light.shape, light.radiance, seen, point.normal, lobes, sum);
     }
+    if (!is_lit) return sum;
     return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
 }
 

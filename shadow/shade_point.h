@@ -48,13 +48,22 @@ struct Unshadowed {
 
 // Adds one light's form factors times its radiance; the lobes' scales are still missing.
 template <class F>
-void add_light(const PolygonShape<float>& shape, const Vec3f& radiance,
-               const ShadingPoint<F>& point, const ShadingLobes<F>& lobes, Unshadowed<F>& sum) {
-    const SeenPolygon<F> seen = see_polygon(shape, point.position, point.normal);
-    if (!simd::any(seen.lit)) return;
+void add_light(const PolygonShape<float>& shape, const Vec3f& radiance, const SeenPolygon<F>& seen,
+               const Vec3<F>& normal, const ShadingLobes<F>& lobes, Unshadowed<F>& sum) {
     const Vec3<F> light = broadcast<F>(radiance);
-    sum.diffuse = fma(light, lambert_form_factor(shape, seen, point.normal), sum.diffuse);
+    sum.diffuse = fma(light, lambert_form_factor(shape, seen, normal), sum.diffuse);
     sum.glossy = fma(light, ltc_form_factor(shape, seen, lobes.specular), sum.glossy);
+}
+
+// The unshadowed light of one polygon at one point: radiance towards the viewer.
+template <class F>
+Unshadowed<F> unshadowed_light(const PolygonShape<float>& shape, const Vec3f& radiance,
+                               const ShadingPoint<F>& point) {
+    const SeenPolygon<F> seen = see_polygon(shape, point.position, point.normal);
+    const ShadingLobes<F> lobes = make_lobes(point);
+    Unshadowed<F> sum;
+    add_light(shape, radiance, seen, point.normal, lobes, sum);
+    return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
 }
 
 }  // namespace penumbra::shadow
