@@ -108,7 +108,7 @@ std::size_t largest_expansion(ExrCodec codec) {
     }
 }
 
-void check_readable(const FileReader& file, const ExrStructure& structure) {
+void check_readable(const FileReader& file, const ExrStructure& structure, std::size_t channels) {
     const ExrPart& part = structure.parts.front();
     const auto refuse = [&](const std::string& message) { throw InputError(file.path(), message); };
     if (structure.missing_chunks > 0) {
@@ -122,9 +122,9 @@ void check_readable(const FileReader& file, const ExrStructure& structure) {
                            channel.name, channel.x_sampling, channel.y_sampling));
     }
     const std::size_t pixels = static_cast<std::size_t>(part.data.width()) * part.data.height();
-    if (pixels * part.channels.size() * 4 > kMaxPixelBytes) {
+    if (pixels * channels * 4 > kMaxPixelBytes) {
         refuse(fmt::format("{} x {} pixels of {} channels need over 4 GiB", part.data.width(),
-                           part.data.height(), part.channels.size()));
+                           part.data.height(), channels));
     }
     if (pixels * part.bytes_per_pixel() / largest_expansion(part.codec) > file.size()) {
         refuse(fmt::format("{} x {} pixels do not fit into an EXR file of {} bytes",
@@ -178,6 +178,18 @@ void insert(Imf::FrameBuffer& buffer, const ExrHeader& header, const std::string
                                          static_cast<std::size_t>(plane.stride()) * sizeof(T)));
 }
 
+Imf::FrameBuffer make_frame_buffer(ExrPixels& pixels) {
+    Imf::FrameBuffer buffer;
+    for (ExrPlane& plane : pixels.planes) {
+        if (plane.type == ExrType::kUint) {
+            insert(buffer, pixels.header, plane.name, Imf::UINT, plane.ids);
+        } else {
+            insert(buffer, pixels.header, plane.name, Imf::FLOAT, plane.floats);
+        }
+    }
+    return buffer;
+}
+
 }  // namespace
 
 ExrHeader read_exr_header(const std::filesystem::path& file) {
@@ -192,29 +204,27 @@ const ExrPlane* ExrPixels::find(std::string_view channel) const {
 
 ExrPixels read_exr(const std::filesystem::path& path) {
     const FileReader file(path);
-    const ExrStructure structure = read_exr_structure(file);
-    check_readable(file, structure);
+    return read_exr_pixels(file, read_exr_structure(file), {});
+}
+
+ExrPixels read_exr_pixels(const FileReader& file, const ExrStructure& structure,
+                          std::span<const std::string> channels) {
     ExrPixels pixels;
     pixels.header = to_header(structure);
-    pixels.planes.resize(pixels.header.channels.size());
-    Imf::FrameBuffer buffer;
-    for (std::size_t i = 0; i < pixels.planes.size(); ++i) {
-        ExrPlane& plane = pixels.planes[i];
-        plane.name = pixels.header.channels[i].name;
-        plane.type = pixels.header.channels[i].type;
-        if (plane.type == ExrType::kUint) {
-            insert(buffer, pixels.header, plane.name, Imf::UINT, plane.ids);
-        } else {
-            insert(buffer, pixels.header, plane.name, Imf::FLOAT, plane.floats);
+    for (const ExrChannelInfo& channel : pixels.header.channels) {
+        if (channels.empty() ||
+            std::find(channels.begin(), channels.end(), channel.name) != channels.end()) {
+            pixels.planes.push_back({channel.name, channel.type, {}, {}});
         }
     }
+    check_readable(file, structure, pixels.planes.size());
     try {
-        MemoryStream stream(path.c_str(), content_with_plain_header(file, structure));
+        MemoryStream stream(file.path().c_str(), content_with_plain_header(file, structure));
         Imf::InputFile input(stream, 0);
-        input.setFrameBuffer(buffer);
+        input.setFrameBuffer(make_frame_buffer(pixels));
         input.readPixels(pixels.header.data.y0, pixels.header.data.y1 - 1);
     } catch (const std::exception& error) {
-        throw InputError(path, fmt::format("the EXR file is damaged: {}", error.what()));
+        throw InputError(file.path(), fmt::format("the EXR file is damaged: {}", error.what()));
     }
     return pixels;
 }

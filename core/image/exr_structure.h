@@ -68,6 +68,10 @@ inline constexpr std::size_t kMaxExrChannels = 1024;
 [[nodiscard]] int lines_per_chunk(ExrCodec codec);
 [[nodiscard]] std::string_view name(ExrCodec codec);
 
+// Decodes the named channels, or all of them where none is named; see read_exr().
+[[nodiscard]] ExrPixels read_exr_pixels(const FileReader& file, const ExrStructure& structure,
+                                        std::span<const std::string> channels);
+
 // Little-endian numbers out of an attribute's value; the value must be long enough.
 [[nodiscard]] std::uint32_t little_uint32(const std::uint8_t* bytes);
 [[nodiscard]] std::uint64_t little_uint64(const std::uint8_t* bytes);

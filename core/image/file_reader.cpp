@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 
@@ -26,12 +28,20 @@ FileReader::FileReader(const std::filesystem::path& file) : path_(file) {
     size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
+FileReader::FileReader(std::span<const std::uint8_t> content, std::filesystem::path name)
+    : path_(std::move(name)), size_(content.size()), content_(content) {}
+
 FileReader::~FileReader() {
-    ::close(descriptor_);
+    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 bool FileReader::read_at(std::uint64_t offset, std::span<std::uint8_t> bytes) const {
     if (offset > size_ || bytes.size() > size_ - offset) return false;
+    if (descriptor_ < 0) {
+        std::copy_n(content_.begin() + static_cast<std::ptrdiff_t>(offset), bytes.size(),
+                    bytes.begin());
+        return true;
+    }
     while (!bytes.empty()) {
         const ssize_t got =
             ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));

@@ -7,11 +7,13 @@
 
 namespace penumbra::image {
 
-// A file opened for reading at any place. Throws InputError where it is missing, not readable or
-// not a regular file; OutputError where the disk fails.
+// A file opened for reading at any place, or its bytes in memory. Throws InputError where it is
+// missing, not readable or not a regular file; OutputError where the disk fails.
 class FileReader {
   public:
     explicit FileReader(const std::filesystem::path& file);
+    // `content` must outlive the reader; `name` is for messages.
+    FileReader(std::span<const std::uint8_t> content, std::filesystem::path name);
     ~FileReader();
     FileReader(const FileReader&) = delete;
     FileReader& operator=(const FileReader&) = delete;
@@ -24,7 +26,8 @@ class FileReader {
   private:
     std::filesystem::path path_;
     std::uint64_t size_ = 0;
-    int descriptor_ = -1;
+    std::span<const std::uint8_t> content_;
+    int descriptor_ = -1;  // none: the bytes are `content_`
 };
 
 [[nodiscard]] std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file);
