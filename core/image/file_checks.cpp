@@ -76,6 +76,42 @@ PngChunk next_png_chunk(std::span<const std::uint8_t>& rest, const std::filesyst
     return chunk;
 }
 
+constexpr std::uint8_t kJpegHuffman = 0xC4;
+constexpr std::uint8_t kJpegEnd = 0xD9;
+constexpr std::uint8_t kJpegScan = 0xDA;
+
+// What follows the marker at `at` and its two bytes of length.
+std::span<const std::uint8_t> jpeg_segment(std::span<const std::uint8_t> content, std::size_t at,
+                                           const std::filesystem::path& name) {
+    const std::size_t length = at + 4 > content.size() ? 0 : big_uint16(&content[at + 2]);
+    if (length < 2 || at + 2 + length > content.size()) {
+        throw InputError(
+            name, fmt::format("the JPEG file is cut off in segment {:#04x}", content[at + 1]));
+    }
+    return content.subspan(at + 4, length - 2);
+}
+
+// stb writes as many code lengths as a table claims, beyond its array of 257.
+void check_jpeg_huffman(std::span<const std::uint8_t> data, const std::filesystem::path& name) {
+    while (!data.empty()) {
+        std::size_t codes = 0;
+        for (std::size_t i = 1; i < std::min<std::size_t>(17, data.size()); ++i) codes += data[i];
+        if (codes > 256 || data.size() < 17 + codes) {
+            throw InputError(name, "the JPEG file is damaged: a Huffman table of the wrong size");
+        }
+        data = data.subspan(17 + codes);
+    }
+}
+
+// Coded pixels run to the next marker that is neither a stuffed zero nor a restart.
+std::size_t end_of_jpeg_scan(std::span<const std::uint8_t> content, std::size_t at) {
+    for (; at + 1 < content.size(); ++at) {
+        const std::uint8_t next = content[at + 1];
+        if (content[at] == 0xFF && next != 0 && (next < 0xD0 || next > 0xD7)) return at;
+    }
+    return content.size();
+}
+
 bool is_frame_header(std::uint8_t marker) {
     return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
@@ -152,28 +188,24 @@ void check_jpeg(std::span<const std::uint8_t> content, const std::filesystem::pa
     bool has_frame = false;
     while (true) {
         while (at + 1 < content.size() && content[at] == 0xFF && content[at + 1] == 0xFF) ++at;
-        if (at + 4 > content.size()) throw InputError(name, "the JPEG file is cut off");
-        if (content[at] != 0xFF)
-            throw InputError(name, "the JPEG file is damaged: expected a marker");
-        const std::uint8_t marker = content[at + 1];
-        const std::size_t length = big_uint16(&content[at + 2]);
-        if (length < 2 || at + 2 + length > content.size()) {
-            throw InputError(name,
-                             fmt::format("the JPEG file is cut off in segment {:#04x}", marker));
+        if (at + 2 > content.size()) {
+            throw InputError(name, "the JPEG file is cut off: it has no end marker");
         }
+        if (content[at] != 0xFF) {
+            throw InputError(name, "the JPEG file is damaged: expected a marker");
+        }
+        const std::uint8_t marker = content[at + 1];
+        if (marker == kJpegEnd) break;
+        const std::span<const std::uint8_t> data = jpeg_segment(content, at, name);
         if (is_frame_header(marker)) {
-            check_jpeg_frame(marker, content.subspan(at + 4, length - 2), content.size(), name);
+            check_jpeg_frame(marker, data, content.size(), name);
             has_frame = true;
         }
-        at += 2 + length;
-        if (marker == 0xDA) break;
+        if (marker == kJpegHuffman) check_jpeg_huffman(data, name);
+        at += 4 + data.size();
+        if (marker == kJpegScan) at = end_of_jpeg_scan(content, at);
     }
     if (!has_frame) throw InputError(name, "the JPEG file has no frame header");
-    constexpr std::uint8_t kEnd[] = {0xFF, 0xD9};
-    const auto data = content.subspan(at);
-    if (std::search(data.begin(), data.end(), std::begin(kEnd), std::end(kEnd)) == data.end()) {
-        throw InputError(name, "the JPEG file is cut off: it has no end marker");
-    }
 }
 
 }  // namespace penumbra::image
