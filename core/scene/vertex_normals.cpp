@@ -117,8 +117,9 @@ class Fan {
     void join_if_smooth(Index a, Index b) {
         static const double kLeastCosine = std::cos(kCreaseDegrees * (std::numbers::pi / 180));
         if (plain_dot(wedges_[a].normal, wedges_[b].normal) <= kLeastCosine) return;
-        const auto [low, high] = std::minmax(root(a), root(b));
-        wedges_[high].group = low;
+        const Index group_a = root(a);
+        const Index group_b = root(b);
+        wedges_[std::max(group_a, group_b)].group = std::min(group_a, group_b);
     }
 
     Index append(PolygonSoup& soup, Index group) const {
