@@ -111,8 +111,8 @@ inline double density_over_polygon(const Points& polygon, const Vec3d& point,
 // ---- random lights -----------------------------------------------------------------------------
 
 struct Configuration {
-    Points polygon;  // every coordinate is a float
-    Vec3d point, normal;
+    Points polygon;
+    Vec3d point, normal;      // the point's coordinates are floats
     double angular_size = 0;  // diameter over distance
 };
 
@@ -136,6 +136,11 @@ inline Vec3d rounded(const Vec3d& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+inline Points rounded(Points polygon) {
+    for (Vec3d& vertex : polygon) vertex = rounded(vertex);
+    return polygon;
+}
+
 // A convex polygon of 3 to 8 vertices on an ellipse of the given half-axes.
 inline Points ellipse_polygon(Random& random, const Vec3d& center, const Vec3d& u, const Vec3d& v) {
     const int count = 3 + static_cast<int>(random.uniform(0, 5.999));
@@ -143,7 +148,7 @@ inline Points ellipse_polygon(Random& random, const Vec3d& center, const Vec3d& 
     Points polygon;
     for (int i = 0; i < count; ++i) {
         const double angle = phase + 6.28318530717958648 * (i + random.uniform(0, 0.6)) / count;
-        polygon.push_back(rounded(center + u * std::cos(angle) + v * std::sin(angle)));
+        polygon.push_back(center + u * std::cos(angle) + v * std::sin(angle));
     }
     return polygon;
 }
