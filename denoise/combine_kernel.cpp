@@ -1,0 +1,33 @@
+#include "denoise/combine_kernel.h"
+
+#include "core/simd/kernel.h"
+#include "denoise/combine_formula.h"
+
+namespace penumbra::PENUMBRA_ISA {
+
+// One channel of a row of elements, from x0 to x1.
+static void combine_row(const denoise::CombineInputs& inputs,
+                        const denoise::CombineOutputs& outputs, std::size_t channel, int y,
+                        const PixelRect& elements) {
+    const float* const shadowed = inputs.shadowed[channel].row(y);
+    const float* const samples = inputs.unshadowed_samples[channel].row(y);
+    const float* const unshadowed = inputs.unshadowed[channel].row(y);
+    const float* const emission = inputs.emission[channel].row(y);
+    float* const beauty = outputs.beauty[channel].row(y);
+    float* const ratio = outputs.ratio[channel] ? outputs.ratio[channel].row(y) : nullptr;
+    for (int x = elements.x0; x < elements.x1; x += kLanes) {
+        const F w = denoise::shadow_ratio(simd::load<F>(shadowed + x), simd::load<F>(samples + x));
+        if (ratio) simd::store(ratio + x, w);
+        simd::store(beauty + x, denoise::combined_radiance(simd::load<F>(emission + x),
+                                                           simd::load<F>(unshadowed + x), w));
+    }
+}
+
+void combine(const denoise::CombineInputs& inputs, const denoise::CombineOutputs& outputs,
+             const PixelRect& elements) {
+    for (int y = elements.y0; y < elements.y1; ++y)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            combine_row(inputs, outputs, channel, y, elements);
+}
+
+}  // namespace penumbra::PENUMBRA_ISA

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "core/frame/camera.h"
+#include "core/image/plane.h"
+#include "core/simd/isa.h"
+#include "denoise/combine.h"
+#include "denoise/frame_window.h"
+#include "denoise/scratch.h"
+#include "denoise/settings.h"
+
+namespace penumbra::denoise {
+
+// What guides the filter. All planes of the filter have one stride.
+struct FilterGuides {
+    PlaneView<const float> noise;  // E
+    PlaneView<const float> depth;  // along the view axis
+    // Unit, world, towards the viewer; 0 where nothing is hit. It spans the tangent plane that the
+    // filter stays in: the geometric normal, for a shading normal would tilt that plane at every
+    // bump.
+    PlaneView3<const float> normal;
+    Camera camera;
+};
+
+// The joint bilateral filter of S_N and U_N (joint_bilateral_formula.h), in two passes: first all
+// rows horizontally, in place, then vertically into the picture. Where S_N and U_N are the same
+// floats they stay so; 0 <= S_N <= U_N holds after each pass as before it, to the last bit;
+// constants do not change. Pixels with U_N = 0 are filled.
+
+struct HorizontalFilterPass {
+    FrameWindow frame;
+    FilterGuides guides;
+    PlaneView3<float> shadowed;            // S_N, replaced
+    PlaneView3<float> unshadowed_samples;  // U_N, replaced
+    FilterSettings settings;
+    simd::Isa isa = simd::Isa::kAvx2;
+};
+
+// Rows y0 <= y < y1 of the frame, over the window's whole width.
+void filter_horizontally(const HorizontalFilterPass& pass, int y0, int y1, Scratch& scratch);
+
+struct VerticalFilterPass {
+    FrameWindow frame;
+    FilterGuides guides;
+    CombineInputs sums;  // S_N and U_N filtered horizontally, U, emission
+    CombineOutputs outputs;
+    PlaneView3<float> shadowed;            // S_N after the filter, for AOVs; these may be empty
+    PlaneView3<float> unshadowed_samples;  // U_N after the filter
+    FilterSettings settings;
+    simd::Isa isa = simd::Isa::kAvx2;
+};
+
+// The pixels of `band`, whose x0 is a multiple of kBlock; whole blocks are written. Reads
+// vertical_filter_margin() pixels around the band.
+void filter_vertically(const VerticalFilterPass& pass, const PixelRect& band);
+
+}  // namespace penumbra::denoise
