@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/math/elementary.h"
 #include "core/math/vec.h"
 
 // The material of penumbra: Lambert + GGX, as templates over the lane type (and double).
@@ -88,6 +89,33 @@ GgxLobe<F> ggx_evaluate(const F& alpha, const Vec3<F>& view, const Vec3<F>& dire
     lobe.fresnel_weight = miss2 * miss2 * miss;
     lobe.density = F(0.5f) * distribution / (cos_view + root_view);
     return lobe;
+}
+
+// A microfacet normal as the view sees them, distributed as D G1 max(0, v.h) / v.z. Dupuy and
+// Benyoub, "Sampling Visible GGX Normals with Spherical Caps" (2023): where alpha is 1, the
+// mirrored directions fill the cap z > -v.z evenly. `random` is in [0, 1)^2; its x goes outwards
+// from the mirror direction.
+template <class F>
+Vec3<F> ggx_sample_visible_normal(const F& alpha, const Vec3<F>& view, const Vec2<F>& random) {
+    const Vec3<F> stretched =
+        normalize(Vec3<F>{alpha * view.x, alpha * view.y, simd::max(view.z, F(0))});
+    const F cap_height = F(1) + stretched.z;
+    const F below_top = random.x * cap_height;
+    const F radius = simd::sqrt(simd::max(below_top * (F(2) - below_top), F(0)));
+    F sine, cosine;
+    sincos_two_pi(random.y, sine, cosine);
+    // 1 - random.x instead of the difference of heights keeps the digits of normals at grazing.
+    const F half_z = simd::max(cap_height * (F(1) - random.x), F(1e-7f));
+    return normalize(Vec3<F>{alpha * simd::fma(radius, cosine, stretched.x),
+                             alpha * simd::fma(radius, sine, stretched.y), half_z});
+}
+
+// The view mirrored at such a normal: a direction with the density of ggx_evaluate. It may lie
+// below the horizon, where the lobe is 0.
+template <class F>
+Vec3<F> ggx_sample_direction(const F& alpha, const Vec3<F>& view, const Vec2<F>& random) {
+    const Vec3<F> normal = ggx_sample_visible_normal(alpha, view, random);
+    return fma(normal, F(2) * dot(view, normal), -view);
 }
 
 // Specular BRDF times cosine, per channel.
