@@ -11,6 +11,7 @@
 #include "apps/cli/statistics_file.h"
 #include "apps/renderer/builtin_scene.h"
 #include "apps/renderer/frame_list.h"
+#include "apps/renderer/renderer.h"
 #include "core/error.h"
 #include "core/scene/read_scene.h"
 

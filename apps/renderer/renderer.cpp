@@ -21,15 +21,6 @@
 namespace penumbra::renderer {
 namespace {
 
-// The scene's settings where the user's are silent.
-ImageSettings completed(const Scene& scene, ImageSettings image) {
-    if (image.width == 0) image.width = scene.width;
-    if (image.height == 0) image.height = scene.height;
-    if (image.samples_per_pixel == 0) image.samples_per_pixel = scene.samples_per_pixel;
-    if (!image.crop) image.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = image.width, .y1 = image.height};
-    return image;
-}
-
 std::uint64_t count_rays(const shadow::RayScratch& rays) {
     std::uint64_t count = 0;
     for (const std::uint64_t row : rays.active) count += static_cast<unsigned>(std::popcount(row));
@@ -44,6 +35,15 @@ struct alignas(64) WorkerCounts {
 
 }  // namespace
 
+ImageSettings completed(const Scene& scene, const ImageSettings& image) {
+    ImageSettings all = image;
+    if (all.width == 0) all.width = scene.width;
+    if (all.height == 0) all.height = scene.height;
+    if (all.samples_per_pixel == 0) all.samples_per_pixel = scene.samples_per_pixel;
+    if (!all.crop) all.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = all.width, .y1 = all.height};
+    return all;
+}
+
 struct Renderer::State {
     const Scene& scene;
     ImageSettings image;
@@ -56,7 +56,6 @@ struct Renderer::State {
     raster::Geometry geometry;
     std::vector<TileScratch> scratch;    // one per worker
     std::vector<WorkerCounts> counts;    // one per worker
-    FrameScratch frame_scratch;
 
     State(const Scene& s, const ImageSettings& i, const ExecutionSettings& e)
         : scene(s), image(completed(s, i)), execution(e),
@@ -179,7 +178,7 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
         s.render_tiles(pass, context, film, statistics, cancelled);
     }
     if (cancelled == nullptr || !cancelled->load())
-        finish_frame(s.image, context, s.view, s.arena, s.frame_scratch, film, statistics);
+        finish_frame(s.image, context, s.view, s.arena, film, statistics);
 
     for (const WorkerCounts& count : s.counts) {
         statistics.passes += count.passes;

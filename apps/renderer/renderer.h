@@ -18,6 +18,9 @@
 
 namespace penumbra::renderer {
 
+// The settings with the scene's values where the user's are silent.
+[[nodiscard]] ImageSettings completed(const Scene& scene, const ImageSettings& image);
+
 // Throws InputError where settings do not fit the scene or this machine.
 void check_settings(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution);
 

@@ -29,7 +29,7 @@ class Sequence {
     Sequence(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution,
              const OutputSettings& output, const std::function<void(const FrameReport&)>& on_frame)
         : scene_(scene), image_(image), execution_(execution), output_(output), on_frame_(on_frame),
-          settings_(describe_settings(scene, image, execution, output)),
+          settings_(describe_settings(completed(scene, image), execution, output)),
           digest_(settings_digest(scene, settings_)) {}
 
     SequenceReport run(const std::vector<int>& frames, const std::atomic<bool>& cancelled) {

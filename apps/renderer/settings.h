@@ -7,6 +7,7 @@
 #include "core/frame/tile.h"
 #include "core/parallel/tiles.h"
 #include "core/simd/isa.h"
+#include "denoise/settings.h"
 #include "shadow/occluders.h"
 #include "shadow/trace.h"
 
@@ -28,6 +29,8 @@ struct ImageSettings {
     Denoise denoise = Denoise::kNoiseDriven;
     int samples_per_pixel = 0;      // shadow rays per light and pixel, 1 to 64; 0: the scene's
     int passes = 1;                 // --aa: jittered passes, 1 to 256
+    denoise::NoiseSettings noise;
+    denoise::FilterSettings filter;
     std::uint32_t seed = 0;
     float light_tolerance = 1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
 };
