@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/math/vec.h"
+#include "core/light/polygon_shape.h"
 
 // Bounds on a light's form factor over a ball of points and a ball of normals.
 
@@ -20,30 +20,36 @@ struct FormFactorBounds {
     F solid_angle_high;           // of the light's part above the horizon
 };
 
-// The light is a ball (`light_center`, `light_radius`) that holds a polygon of `area` with unit
-// normal `light_normal`. With r the distance, e the point's distance from the light's plane and n.v
-// the height above its horizon, the form factor is 1/pi * integral of e (n.v) / r^4 over the area:
-// each factor is bounded by the balls.
+// With r the distance, e the point's distance from the light's plane and n.v the height above its
+// horizon, the form factor is 1/pi * integral of e (n.v) / r^4 over the light's area. Each factor
+// is bounded on its own: the height, linear in the light's point, and the largest distance by the
+// vertices, the smallest distance by a ball around the light and by its plane.
 template <class F>
-FormFactorBounds<F> bound_form_factor(const SurfaceBall<F>& surface, const Vec3<F>& light_center,
-                                      F light_radius, const Vec3<F>& light_normal, F area,
-                                      bool two_sided) {
-    const Vec3<F> to_light = light_center - surface.center;
-    const F distance = length(to_light);
-    const F slack = surface.radius + light_radius;
-    const F nearest = simd::max(distance - slack, F(0));
-    const F farthest = distance + slack;
+FormFactorBounds<F> bound_form_factor(const SurfaceBall<F>& surface,
+                                      const PolygonShape<float>& light) {
+    const F area(light.area);
+    F lowest(1e30f), highest(-1e30f), farthest(0);
+    for (int i = 0; i < light.count; ++i) {
+        const Vec3<F> to_vertex = broadcast<F>(light.vertices[i]) - surface.center;
+        const F height = dot(surface.normal, to_vertex);
+        lowest = simd::min(height, lowest);
+        highest = simd::max(height, highest);
+        farthest = simd::max(length_squared(to_vertex), farthest);
+    }
+    farthest = simd::sqrt(farthest) + surface.radius;
+    const F height_slack =
+        simd::fma(length(surface.normal), surface.radius, surface.normal_radius * farthest);
+    const F height_high = highest + height_slack;
+    const F height_low = simd::max(lowest - height_slack, F(0));
 
-    F in_front = -dot(light_normal, to_light);
-    if (two_sided) in_front = simd::abs(in_front);
+    const Vec3<F> to_light = broadcast<F>(light.center) - surface.center;
+    F in_front = -dot(broadcast<F>(light.normal), to_light);
+    if (light.two_sided) in_front = simd::abs(in_front);
     const F front_high = in_front + surface.radius;
     const F front_low = simd::max(in_front - surface.radius, F(0));
-
-    const F height = dot(surface.normal, to_light);
-    const F height_slack =
-        simd::fma(length(surface.normal), slack, surface.normal_radius * farthest);
-    const F height_high = height + height_slack;
-    const F height_low = simd::max(height - height_slack, F(0));
+    // A little less than the plane says: the light is planar up to rounding only.
+    const F nearest = simd::max(length(to_light) - (surface.radius + F(light.radius * 1.0001f)),
+                                front_low * F(0.9999f));
 
     const auto none = (front_high <= F(0)) | (height_high <= F(0));
     const auto apart = nearest > F(0);

@@ -147,10 +147,7 @@ void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, in
     const shadow::SurfaceBall<F> ball{load_blocks(bounds.center, block), radius,
                                       load_blocks(bounds.normal_center, block),
                                       simd::load<F>(bounds.normal_radius + block)};
-    const PolygonShape<float>& shape = light.shape;
-    const auto form = shadow::bound_form_factor(
-        ball, broadcast<F>(shape.center), F(shape.radius * (1 + kRelativeSlack)),
-        broadcast<F>(shape.normal), F(shape.area), shape.two_sided);
+    const auto form = shadow::bound_form_factor(ball, light.shape);
     const Vec3<F> radiance = broadcast<F>(light.radiance);
     const Vec3<F> glossy = min3(load_blocks(bounds.specular, block),
                                 load_blocks(bounds.specular_peak, block) * form.solid_angle_high);

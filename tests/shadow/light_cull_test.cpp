@@ -1,0 +1,143 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/light/polygon.h"
+#include "shadow/light_bounds.h"
+#include "tests/shadow/light_testing.h"
+
+using namespace penumbra;
+using namespace penumbra::light_testing;
+
+namespace {
+
+std::vector<std::uint32_t> kept_lights(const shadow::LightSet& set, const SceneView& scene,
+                                       const TilePlanes& tile, float tolerance,
+                                       simd::Isa isa = simd::best_isa()) {
+    shadow::TileLights kept;
+    shadow::cull_lights(set, scene, {.isa = isa}, tile.const_surface(), tolerance, kept);
+    return {kept.kept().begin(), kept.kept().end()};
+}
+
+double unshadowed(const TilePlanes& tile, int x, int y) {
+    return luminance(TilePlanes::get(tile.diffuse, x, y) + TilePlanes::get(tile.glossy, x, y));
+}
+
+// The largest of (U of all lights - U of kept lights) / U of kept lights over the tile.
+double largest_loss(const shadow::LightSet& set, const SceneView& scene, float tolerance,
+                    TilePlanes& tile) {
+    const FrameContext context{.isa = simd::best_isa()};
+    shadow::TileLights kept;
+    shadow::cull_lights(set, scene, context, tile.const_surface(), 0, kept);
+    shadow::shade(set, kept, scene, context, tile.const_surface(), tile.sums());
+    std::vector<double> all(kTileSize * kTileSize);
+    for (int i = 0; i < kTileSize * kTileSize; ++i)
+        all[static_cast<std::size_t>(i)] = unshadowed(tile, i % kTileSize, i / kTileSize);
+    shadow::cull_lights(set, scene, context, tile.const_surface(), tolerance, kept);
+    shadow::shade(set, kept, scene, context, tile.const_surface(), tile.sums());
+    double loss = 0;
+    for (int i = 0; i < kTileSize * kTileSize; ++i) {
+        const double some = unshadowed(tile, i % kTileSize, i / kTileSize);
+        const double lost = all[static_cast<std::size_t>(i)] - some;
+        if (lost > 1e-6 * some) loss = std::max(loss, some > 0 ? lost / some : 1e9);
+    }
+    return loss;
+}
+
+}  // namespace
+
+TEST_CASE("culled lights add up to at most the tolerance at every pixel") {
+    reference::Random random(41);
+    TilePlanes tile;
+    std::size_t kept = 0, total = 0;
+    for (const Landscape landscape : {Landscape::kFloor, Landscape::kBumps, Landscape::kChaos}) {
+        for (const double size : {0.05, 1.0, 30.0}) {
+            const SceneView scene = random_lights(random, 300, 1);
+            shadow::LightSet set;
+            shadow::prepare_lights(scene, set);
+            fill_tile(random, landscape, size, tile);
+            for (const float tolerance : {1.0f / 1024, 1.0f / 16}) {
+                CAPTURE(size);
+                CHECK(largest_loss(set, scene, tolerance, tile) <= tolerance);
+                kept += kept_lights(set, scene, tile, tolerance).size();
+                total += set.lights.size();
+            }
+        }
+    }
+    MESSAGE("kept " << kept << " of " << total);
+    CHECK(kept < total);
+}
+
+TEST_CASE("one bright light near a small patch of floor makes hundreds of dim ones disappear") {
+    reference::Random random(42);
+    SceneView scene;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3d center =
+            Vec3d{random.uniform(-50, 50), random.uniform(20, 50), random.uniform(-50, 50)};
+        scene.lights.push_back(
+            make_light(reference::ellipse_polygon(random, center, {0.02, 0, 0}, {0, 0, 0.02}),
+                       {1, 1, 1}, true));
+    }
+    scene.lights.push_back(
+        make_light({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {10, 10, 10}, true));
+    scene.camera.eye = {0, 1.5f, 3};
+    shadow::LightSet set;
+    shadow::prepare_lights(scene, set);
+    TilePlanes tile;
+    fill_tile(random, Landscape::kFloor, 0.2, tile);
+    const std::vector<std::uint32_t> kept = kept_lights(set, scene, tile, 1.0f / 1024);
+    CHECK(kept.size() < 30);
+    CHECK(std::find(kept.begin(), kept.end(), 300u) != kept.end());
+    CHECK(largest_loss(set, scene, 1.0f / 1024, tile) <= 1.0 / 1024);
+}
+
+TEST_CASE("a tolerance of zero keeps every light, and the kept ones are in ascending order") {
+    reference::Random random(43);
+    const SceneView scene = random_lights(random, 100, 1);
+    shadow::LightSet set;
+    shadow::prepare_lights(scene, set);
+    TilePlanes tile;
+    fill_tile(random, Landscape::kBumps, 1, tile);
+    CHECK(kept_lights(set, scene, tile, 0).size() == 100);
+    const std::vector<std::uint32_t> kept = kept_lights(set, scene, tile, 1.0f / 64);
+    CHECK(kept.size() < 100);
+    CHECK(std::is_sorted(kept.begin(), kept.end()));
+}
+
+TEST_CASE("the choice of lights does not depend on the instruction set") {
+    reference::Random random(44);
+    TilePlanes tile;
+    for (int trial = 0; trial < 5; ++trial) {
+        const SceneView scene = random_lights(random, 200, 1);
+        shadow::LightSet set;
+        shadow::prepare_lights(scene, set);
+        fill_tile(random, Landscape::kBumps, 0.5, tile);
+        const std::vector<std::uint32_t> expected = kept_lights(set, scene, tile, 1.0f / 256);
+        for (const simd::Isa isa : instruction_sets())
+            CHECK(kept_lights(set, scene, tile, 1.0f / 256, isa) == expected);
+    }
+}
+
+TEST_CASE("bounds of a form factor hold for points and normals anywhere in their balls") {
+    reference::Random random(45);
+    for (int trial = 0; trial < 3000; ++trial) {
+        const double reach = std::exp(random.uniform(-5, 0)),
+                     bend = std::exp(random.uniform(-5, 0));
+        const reference::Configuration c =
+            reference::random_configuration(random, random.uniform(0.01, 2));
+        const PolygonLight light = make_light(c.polygon, {1, 1, 1}, trial % 2 == 0);
+        const auto shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
+        const shadow::SurfaceBall<float> ball{to_float(c.point), static_cast<float>(reach),
+                                              to_float(c.normal), static_cast<float>(bend)};
+        const auto bounds = shadow::bound_form_factor(ball, shape);
+        for (int i = 0; i < 10; ++i) {
+            const Vec3f point = to_float(c.point + random.direction() * (reach * 0.999));
+            const Vec3d normal = normalize(c.normal + random.direction() * (bend * 0.5));
+            if (length(normal - c.normal) > bend) continue;
+            const Vec3f n = to_float(normal);
+            const float form = lambert_form_factor(shape, see_polygon(shape, point, n), n);
+            CHECK(form <= bounds.lambert_high * 1.0001f + 1e-7f);
+            CHECK(form >= bounds.lambert_low * 0.9999f - 1e-7f);
+        }
+    }
+}
