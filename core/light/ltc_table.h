@@ -40,7 +40,7 @@ struct LtcEntry {
 inline constexpr int kLtcRoughnessNodes = 64;
 inline constexpr int kLtcAngleNodes = 64;
 // How much of the angle axis belongs to grazing views; see ltc_angle_coordinate.
-inline constexpr float kLtcGrazingStretch = 0.5f;
+inline constexpr float kLtcGrazingStretch = 1.5f;
 
 // kLtcRoughnessNodes x kLtcAngleNodes rows of kLtcRowFloats floats, the angle running fastest:
 // cos and sin of the tilt of the lobe's ridge, the stretch (m00, m02) = stretch * (cos, sin), m20 /

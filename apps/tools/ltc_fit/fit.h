@@ -47,11 +47,13 @@ inline LtcShape initial_shape(const LobeConfiguration& lobe) {
 }
 
 struct FitSettings {
-    int resolution = 96;
-    // Residuals count as (value + floor * peak)^-flattening: 0 is least squares, which sees little
-    // but the peak, 1 nearly bounds the L1 distance.
-    double flattening = 0.5;
-    double floor = 0.01;
+    int resolution = 64;
+    // A residual counts as much as (value / peak + floor)^-flattening: flattening 0 is least
+    // squares, which sees little but the peak; 1 with a small floor bounds the L1 distance, but
+    // loses the peak. Of those tried these give about the least L1 distance and radiance error of
+    // polygons at an L2 distance 10 % above the least.
+    double flattening = 0.7;
+    double floor = 0.1;
     int iterations = 40;
 };
 

@@ -83,18 +83,4 @@ inline Albedo sum_albedo(const std::vector<LobePoint>& points) {
     return sum;
 }
 
-// Both to `tolerance`: the grid is refined until two successive ones agree to a tenth of it.
-inline Albedo integrate_albedo(const LobeConfiguration& lobe, double tolerance) {
-    constexpr int kLargestResolution = 2048;
-    Albedo coarse = sum_albedo(lobe_points(lobe, 64));
-    for (int resolution = 128; resolution <= kLargestResolution; resolution *= 2) {
-        const Albedo fine = sum_albedo(lobe_points(lobe, resolution));
-        const double change =
-            std::abs(fine.norm - coarse.norm) + std::abs(fine.fresnel - coarse.fresnel);
-        coarse = fine;
-        if (change < 0.1 * tolerance) break;
-    }
-    return coarse;
-}
-
 }  // namespace penumbra::ltc_fit
