@@ -96,9 +96,10 @@ std::vector<Light> read_lights(const json::Node& document) {
     for (std::size_t i = 0; i < list->size(); ++i) {
         const json::Node node = (*list)[i];
         Light light = read_light(node);
-        if (light.name.empty()) light.name = fmt::format("light {}", i + 1);
-        if (!names.insert(light.name).second)
-            node.fail(fmt::format("name: \"{}\" is the name of another light too", light.name));
+        const auto name = node.find("name");
+        if (name && !names.insert(light.name).second)
+            name->fail(fmt::format("{} is the name of another light too", name->shown()));
+        if (!name) light.name = fmt::format("light {}", i + 1);
         lights.push_back(std::move(light));
     }
     return lights;
