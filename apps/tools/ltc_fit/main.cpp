@@ -38,7 +38,7 @@ void write_table(const std::string& path, const Table& table) {
     std::ofstream out(path);
     out << "// Generated: ltc_fit core/light/ltc_table_data.inc\n";
     for (const TableRow& row : table) {
-        for (const float value : row) out << fmt::format("{:.9g}f,", value + 0.0f);
+        for (const float value : row) out << fmt::format("{:.9g},", value + 0.0f);
         out << '\n';
     }
     if (!out.flush()) throw OutputError(path, "cannot write");
