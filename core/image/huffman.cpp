@@ -48,22 +48,33 @@ std::vector<int> tree_depths(const std::vector<Leaf>& leaves) {
     return depth;
 }
 
-// How many codes of each length; too long ones are cut, and the Kraft sum is repaired by
-// lengthening the longest codes that still may grow.
+// How many codes of each length. Too long ones are cut; then the Kraft sum, counted in units of
+// 2^-longest, is brought back to exactly 1 (decoders refuse incomplete codes): by lengthening the
+// longest codes that may still grow, and by shortening again what that took too much.
 std::array<std::uint32_t, 17> limit_lengths(const std::vector<int>& depths, int longest) {
     std::array<std::uint32_t, 17> count{};
-    std::uint64_t kraft = 0;  // in units of 2^-longest
+    const std::int64_t whole = std::int64_t{1} << longest;
+    std::int64_t kraft = 0;
     for (const int depth : depths) {
         const int length = std::min(depth, longest);
         ++count[static_cast<std::size_t>(length)];
-        kraft += std::uint64_t{1} << (longest - length);
+        kraft += whole >> length;
     }
-    while (kraft > std::uint64_t{1} << longest) {
+    const auto move = [&](int from, int to) {
+        --count[static_cast<std::size_t>(from)];
+        ++count[static_cast<std::size_t>(to)];
+        kraft += (whole >> to) - (whole >> from);
+    };
+    while (kraft > whole) {
         int length = longest - 1;
         while (count[static_cast<std::size_t>(length)] == 0) --length;
-        --count[static_cast<std::size_t>(length)];
-        ++count[static_cast<std::size_t>(length) + 1];
-        kraft -= std::uint64_t{1} << (longest - length - 1);
+        move(length, length + 1);
+    }
+    // A code of length n that loses a bit fills 2^-n more; the longest ones can fill any remainder.
+    for (int length = 2; length <= longest; ++length) {
+        while (count[static_cast<std::size_t>(length)] > 0 && whole - kraft >= whole >> length) {
+            move(length, length - 1);
+        }
     }
     return count;
 }

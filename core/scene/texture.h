@@ -45,7 +45,7 @@ struct TextureRequest {
     // Packed maps: this channel of the file (0 to 3 for R, G, B, A) stands for all of them; in
     // kOpacity and kHeight it is the opacity, the height. Grey files answer with their grey for 0
     // to 2.
-    std::optional<int> channel;
+    std::optional<int> channel = std::nullopt;
     float relief = kDefaultRelief;  // kHeight: times MTL's -bm
 };
 
