@@ -75,6 +75,16 @@ inline TableRow table_row(const LobeConfiguration& lobe, const LtcShape& shape) 
     return result;
 }
 
+// The shape that a row was made from.
+inline LtcShape shape_of_row(const float* row) {
+    const double cosine = row[0];
+    const double sine = row[1];
+    const double low_x = row[3];
+    const double low_z = row[4];
+    return {row[2], std::atan2(sine, cosine), low_z * cosine - low_x * sine,
+            low_x * cosine + low_z * sine};
+}
+
 // The rows of one roughness.
 inline std::vector<TableRow> table_rows(int roughness_index, const FitSettings& settings) {
     const double roughness = node_roughness(roughness_index);
