@@ -3,6 +3,7 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -40,6 +41,21 @@ bool is_map(std::string_view keyword) {
         keyword, {"map_Kd", "map_Pr", "map_Pm", "map_d", "map_Bump", "map_bump", "bump", "norm"});
 }
 
+// Of texture maps: how many values follow at most, and what ignoring it means.
+struct Option {
+    std::string_view name;
+    int values;
+    bool is_numeric, is_kept, changes_picture;
+};
+constexpr std::array kOptions{
+    Option{"-bm", 1, true, true, false},       Option{"-imfchan", 1, false, true, false},
+    Option{"-s", 3, true, false, true},        Option{"-o", 3, true, false, true},
+    Option{"-t", 3, true, false, true},        Option{"-mm", 2, true, false, true},
+    Option{"-clamp", 1, false, false, false},  Option{"-blendu", 1, false, false, false},
+    Option{"-blendv", 1, false, false, false}, Option{"-cc", 1, false, false, false},
+    Option{"-boost", 1, true, false, false},   Option{"-texres", 1, true, false, false},
+    Option{"-type", 1, false, false, false},   Option{"-colorspace", 1, false, false, false}};
+
 class Scanner {
   public:
     explicit Scanner(const std::filesystem::path& file) : file_(file) {}
@@ -69,7 +85,8 @@ class Scanner {
             rest = check_numbers(keyword, rest);
         } else if (is_map(keyword)) {
             if (rest.empty()) fail(fmt::format("{} without a file name", keyword));
-            note_options(rest);
+            map_text_ = without_options(rest);
+            rest = map_text_;
         } else {
             return;
         }
@@ -100,21 +117,33 @@ class Scanner {
         return all;
     }
 
-    void note_options(std::string_view words) {
+    // The statement with those options alone that are understood. The parser would take a file's
+    // name for the third number of "-s 2 2 wood.png".
+    std::string without_options(std::string_view words) {
+        std::string kept;
         while (words.starts_with("-")) {
-            const std::string_view option = take_word(words);
-            if (is_one_of(option, {"-s", "-o", "-t", "-mm"}))
-                result_.ignored_options.emplace(option);
-            while (!words.empty() && (is_number(words.substr(0, words.find_first_of(" \t"))) ||
-                                      words.starts_with("on ") || words.starts_with("off ")))
-                take_word(words);
-            if (is_one_of(option, {"-imfchan", "-type", "-colorspace"})) take_word(words);
+            std::string_view rest = words;
+            const std::string_view option = take_word(rest);
+            const auto known = std::find_if(kOptions.begin(), kOptions.end(),
+                                            [&](const Option& o) { return o.name == option; });
+            if (known == kOptions.end()) break;  // a file name
+            if (known->changes_picture) result_.ignored_options.emplace(option);
+            words = rest;
+            for (int i = 0; i < known->values; ++i) {
+                std::string_view after = words;
+                const std::string_view value = take_word(after);
+                if (known->is_numeric && !is_number(value)) break;
+                words = after;
+                if (known->is_kept) kept += fmt::format("{} {} ", option, value);
+            }
         }
+        if (words.empty()) fail("a map without a file name");
+        return kept.append(words);
     }
 
     const std::filesystem::path& file_;
     std::size_t line_number_ = 0;
-    std::string color_text_;
+    std::string color_text_, map_text_;
     ScannedMtl result_;
 };
 
