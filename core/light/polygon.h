@@ -106,25 +106,43 @@ F arc_over_sine(F cosine) {
     }
 }
 
-// theta / |a x b| of the angle between a and b, whose lengths have the given reciprocals.
-template <class F>
-F edge_weight(const Vec3<F>& a, F inverse_a, const Vec3<F>& b, F inverse_b) {
-    const F inverse = inverse_a * inverse_b;
-    const F cosine = dot(a, b) * inverse;
-    const auto obtuse = cosine < F(0);
-    F weight = arc_over_sine(simd::abs(cosine));
-    if (simd::any(obtuse)) {
-        // pi - theta has the same sine; that sine is what the edge's normal is divided by, so it
-        // comes from the cross product and not from the cosine.
-        const F sine = simd::max(length(cross(a, b - a)) * inverse, F(1e-9f));
-        weight = simd::select(obtuse, F(3.14159265358979323846) / sine - weight, weight);
-    }
-    return weight * inverse;
-}
-
 template <class F>
 F inverse_length(const Vec3<F>& v) {
     return F(1) / simd::sqrt(simd::max(length_squared(v), F(1e-36f)));
+}
+
+// Of the edges from a to b: pi - theta has the same sine as theta. That sine is what the edge's
+// normal is divided by, so it comes from the cross product and not from the cosine.
+template <class F>
+F obtuse_arc_over_sine(F supplement, const Vec3<F>& a, const Vec3<F>& b, F inverse_lengths) {
+    const F sine = simd::max(length(cross(a, b - a)) * inverse_lengths, F(1e-9f));
+    return F(3.14159265358979323846) / sine - supplement;
+}
+
+// theta / |a x b| for the angle theta between each direction a and the next one, b.
+template <class F>
+void edge_weights(const Vec3<F>* directions, int count, F* weights) {
+    F inverses[kMaxClippedVertices];  // first of each length, then of each pair's
+    F cosines[kMaxClippedVertices];
+    for (int i = 0; i < count; ++i) inverses[i] = inverse_length(directions[i]);
+    const F first_inverse = inverses[0];
+    F least = F(1);
+    for (int i = 0; i < count; ++i) {
+        const bool closes = i + 1 == count;
+        inverses[i] = inverses[i] * (closes ? first_inverse : inverses[i + 1]);
+        cosines[i] = dot(directions[i], directions[closes ? 0 : i + 1]) * inverses[i];
+        weights[i] = arc_over_sine(simd::abs(cosines[i]));
+        least = simd::min(cosines[i], least);
+    }
+    if (simd::any(least < F(0))) {
+        for (int i = 0; i < count; ++i)
+            weights[i] = simd::select(
+                cosines[i] < F(0),
+                obtuse_arc_over_sine(weights[i], directions[i],
+                                     directions[i + 1 == count ? 0 : i + 1], inverses[i]),
+                weights[i]);
+    }
+    for (int i = 0; i < count; ++i) weights[i] = weights[i] * inverses[i];
 }
 
 // 2 * the signed integral of the lobe's cosine over the whole polygon. Only the weights of the
@@ -133,15 +151,13 @@ F inverse_length(const Vec3<F>& v) {
 template <class F, class T, class Lobe>
 F edge_sum(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
            const Vec3<F>* directions) {
-    F inverses[kMaxPolygonVertices];
-    for (int i = 0; i < light.count; ++i) inverses[i] = inverse_length(directions[i]);
+    F weights[kMaxClippedVertices];
+    edge_weights(directions, light.count, weights);
     Vec3<F> edges{F(0), F(0), F(0)};
     Vec3<F> moments{F(0), F(0), F(0)};
     for (int i = 0; i < light.count; ++i) {
-        const int next = i + 1 < light.count ? i + 1 : 0;
-        const F weight = edge_weight(directions[i], inverses[i], directions[next], inverses[next]);
-        edges = fma(in_lanes<F>(light.edges[i]), weight, edges);
-        moments = fma(in_lanes<F>(light.moments[i]), weight, moments);
+        edges = fma(in_lanes<F>(light.edges[i]), weights[i], edges);
+        moments = fma(in_lanes<F>(light.moments[i]), weights[i], moments);
     }
     const Vec3<F> flux = lobe.flux();
     return dot(edges, cross(flux, seen.vertices[0])) + dot(flux, moments);
@@ -199,20 +215,17 @@ ClippedPolygon<F> clip_to_lobe(const PolygonShape<T>& light, const SeenPolygon<F
 
 template <class F, class Lobe>
 F clipped_edge_sum(const ClippedPolygon<F>& part, const Vec3<F>& origin, const Lobe& lobe) {
-    Vec3<F> directions[kMaxClippedVertices];
-    F inverses[kMaxClippedVertices];
-    for (int i = 0; i < part.count; ++i) {
-        directions[i] = lobe.direction(origin + part.vertices[i]);
-        inverses[i] = inverse_length(directions[i]);
-    }
+    Vec3<F> directions[kMaxClippedVertices] = {};
+    F weights[kMaxClippedVertices];
+    for (int i = 0; i < part.count; ++i) directions[i] = lobe.direction(origin + part.vertices[i]);
+    edge_weights(directions, part.count, weights);
     Vec3<F> edges{F(0), F(0), F(0)};
     Vec3<F> moments{F(0), F(0), F(0)};
     for (int i = 0; i < part.count; ++i) {
         const int next = i + 1 < part.count ? i + 1 : 0;
-        const F weight = edge_weight(directions[i], inverses[i], directions[next], inverses[next]);
         const Vec3<F> edge = part.vertices[next] - part.vertices[i];
-        edges = fma(edge, weight, edges);
-        moments = fma(cross(part.vertices[i], edge), weight, moments);
+        edges = fma(edge, weights[i], edges);
+        moments = fma(cross(part.vertices[i], edge), weights[i], moments);
     }
     const Vec3<F> flux = lobe.flux();
     return dot(edges, cross(flux, origin)) + dot(flux, moments);
