@@ -37,12 +37,14 @@ void prepare_film(int width, int height, PixelRect crop, int margin, AovSet want
     film.emission = plane3();
     film.coverage = plane();
     film.depth = plane();
-    film.normal = plane3();
+    film.geometric_normal = plane3();
     film.beauty = plane3();
     film.noise = plane();
     if (wanted.contains(Aov::kW)) film.shadow = plane3();
     if (wanted.contains(Aov::kP)) film.position = plane3();
-    if (wanted.contains(Aov::kNg)) film.geometric_normal = plane3();
+    if (wanted.contains(Aov::kS)) film.filtered_shadowed = plane3();
+    if (wanted.contains(Aov::kUn)) film.filtered_unshadowed_samples = plane3();
+    if (wanted.contains(Aov::kN)) film.normal = plane3();
     if (wanted.contains(Aov::kAlbedo)) film.base_color = plane3();
     if (wanted.contains(Aov::kRoughness)) film.roughness = plane();
     if (wanted.contains(Aov::kMetallic)) film.metallic = plane();

@@ -16,20 +16,22 @@ struct Film {
 
     // Left behind by the tile passes; sums over the --aa passes until they are scaled to means.
     Plane3<float> unshadowed;          // U
-    Plane3<float> shadowed;            // S_N; filtered, if the AOV is wanted
+    Plane3<float> shadowed;            // S_N; the filter replaces it by a half-filtered one
     Plane3<float> unshadowed_samples;  // U_N; likewise
     Plane3<float> emission;
     Plane<float> coverage;
     Plane<float> depth;                // first --aa pass, as are normals, position, motion and ids
-    Plane3<float> normal;
+    Plane3<float> geometric_normal;
 
     // Left behind by the frame passes.
     Plane3<float> beauty;
     Plane<float> noise;     // E
-    Plane3<float> shadow;   // W, if wanted
 
     // Only if wanted.
-    Plane3<float> position, geometric_normal, base_color;
+    Plane3<float> shadow;             // W
+    Plane3<float> filtered_shadowed;  // S_N and U_N after the filter
+    Plane3<float> filtered_unshadowed_samples;
+    Plane3<float> position, normal, base_color;
     Plane<float> roughness, metallic, motion_x, motion_y;
     Plane<std::uint32_t> instance, triangle, material;
 };

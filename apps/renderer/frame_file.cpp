@@ -86,8 +86,8 @@ void add_aov(const AovInfo& aov, const Film& film, Channels& channels) {
             channels.add(aov.channels[3], aov.type, film.coverage);
             return;
         case Aov::kU: return channels.add(aov, film.unshadowed);
-        case Aov::kS: return channels.add(aov, film.shadowed);
-        case Aov::kUn: return channels.add(aov, film.unshadowed_samples);
+        case Aov::kS: return channels.add(aov, film.filtered_shadowed);
+        case Aov::kUn: return channels.add(aov, film.filtered_unshadowed_samples);
         case Aov::kW: return channels.add(aov, film.shadow);
         case Aov::kE: return channels.add(aov, film.noise);
         case Aov::kEmission: return channels.add(aov, film.emission);

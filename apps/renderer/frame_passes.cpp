@@ -1,10 +1,13 @@
 #include "apps/renderer/frame_passes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/renderer/deposit.h"
 #include "core/profile/stopwatch.h"
 #include "denoise/combine.h"
+#include "denoise/joint_bilateral.h"
+#include "denoise/noise_estimate.h"
 #include "denoise/settings.h"
 
 namespace penumbra::renderer {
@@ -29,15 +32,74 @@ void for_each_band(const parallel::Arena& arena, const Film& film, const Body& b
     });
 }
 
+denoise::CombineInputs sums_of(const Film& film) {
+    return {.shadowed = view(film.shadowed),
+            .unshadowed_samples = view(film.unshadowed_samples),
+            .unshadowed = view(film.unshadowed),
+            .emission = view(film.emission)};
+}
+
+denoise::CombineOutputs outputs_of(Film& film) { return {.beauty = view(film.beauty), .ratio = view(film.shadow)}; }
+
+// --denoise none.
 void combine_film(const FrameContext& context, const parallel::Arena& arena, Film& film) {
-    const denoise::CombineInputs inputs{.shadowed = to_const(view(film.shadowed)),
-                                        .unshadowed_samples = to_const(view(film.unshadowed_samples)),
-                                        .unshadowed = to_const(view(film.unshadowed)),
-                                        .emission = to_const(view(film.emission))};
-    const denoise::CombineOutputs outputs{.beauty = view(film.beauty), .ratio = view(film.shadow)};
     for_each_band(arena, film, [&](const PixelRect& band, int) {
-        denoise::combine(window_of(film), inputs, outputs, band, context.isa);
+        denoise::combine(window_of(film), sums_of(film), outputs_of(film), band, context.isa);
     });
+    // The terms after a filter that does nothing.
+    const auto keep = [&](const Plane3<float>& from, Plane3<float>& to) {
+        for (std::size_t c = 0; c < 3 && !to[c].empty(); ++c)
+            std::copy_n(from[c].row(0), from[c].allocated_elements(), to[c].row(0));
+    };
+    keep(film.shadowed, film.filtered_shadowed);
+    keep(film.unshadowed_samples, film.filtered_unshadowed_samples);
+}
+
+void estimate_noise(const ImageSettings& image, const FrameContext& context, const parallel::Arena& arena,
+                    FrameScratch& scratch, Film& film) {
+    const denoise::NoisePass pass{.frame = window_of(film),
+                                  .shadowed = view(std::as_const(film.shadowed)),
+                                  .unshadowed_samples = view(std::as_const(film.unshadowed_samples)),
+                                  .unshadowed = view(std::as_const(film.unshadowed)),
+                                  .noise = film.noise.view(),
+                                  .settings = image.noise,
+                                  .isa = context.isa};
+    for_each_band(arena, film, [&](const PixelRect& band, int worker) {
+        denoise::estimate_noise(pass, band, scratch.workers[static_cast<std::size_t>(worker)]);
+    });
+}
+
+// Horizontally in place, then vertically into the picture.
+void filter(const ImageSettings& image, const FrameContext& context, const Camera& camera,
+            const parallel::Arena& arena, FrameScratch& scratch, Film& film) {
+    const denoise::FilterGuides guides{.noise = std::as_const(film.noise).view(),
+                                       .depth = std::as_const(film.depth).view(),
+                                       .normal = view(std::as_const(film.geometric_normal)),
+                                       .camera = camera};
+    const denoise::HorizontalFilterPass horizontal{.frame = window_of(film),
+                                                   .guides = guides,
+                                                   .shadowed = view(film.shadowed),
+                                                   .unshadowed_samples = view(film.unshadowed_samples),
+                                                   .settings = image.filter,
+                                                   .isa = context.isa};
+    for_each_band(arena, film, [&](const PixelRect& band, int worker) {
+        denoise::filter_horizontally(horizontal, band.y0, band.y1, scratch.workers[static_cast<std::size_t>(worker)]);
+    });
+    const denoise::VerticalFilterPass vertical{.frame = window_of(film),
+                                               .guides = guides,
+                                               .sums = sums_of(film),
+                                               .outputs = outputs_of(film),
+                                               .shadowed = view(film.filtered_shadowed),
+                                               .unshadowed_samples = view(film.filtered_unshadowed_samples),
+                                               .settings = image.filter,
+                                               .isa = context.isa};
+    for_each_band(arena, film, [&](const PixelRect& band, int) { denoise::filter_vertically(vertical, band); });
+}
+
+void prepare_scratch(const Film& film, int workers, FrameScratch& scratch) {
+    if (scratch.window_width == film.window.width()) return;
+    scratch.window_width = film.window.width();
+    scratch.workers.assign(static_cast<std::size_t>(workers), denoise::Scratch(scratch.window_width));
 }
 
 // --method stochastic: emission + S_N.
@@ -57,19 +119,26 @@ void add_samples(const parallel::Arena& arena, Film& film) {
 }  // namespace
 
 int frame_margin(const ImageSettings& image) {
-    if (image.denoise == Denoise::kNone || image.method != Method::kRatio) return 0;
     const denoise::Margin margin = denoise::chain_margin(image.noise, image.filter);
     return std::max(margin.x, margin.y);
 }
 
-void finish_frame(const ImageSettings& image, const FrameContext& context, const SceneView&,
-                  const parallel::Arena& arena, Film& film, FrameStatistics& statistics) {
+void finish_frame(const ImageSettings& image, const FrameContext& context, const Camera& camera,
+                  const parallel::Arena& arena, FrameScratch& scratch, Film& film,
+                  FrameStatistics& statistics) {
     profile::Stopwatch watch;
+    prepare_scratch(film, arena.threads(), scratch);
     if (image.passes > 1)
         for_each_band(arena, film, [&](const PixelRect& band, int) {
             scale_to_means(image.passes, band.y0 - film.window.y0, band.y1 - film.window.y0, film);
         });
-    combine_film(context, arena, film);
+    const bool filters = image.denoise == Denoise::kNoiseDriven && image.method == Method::kRatio;
+    if (filters || film.wanted.contains(Aov::kE)) estimate_noise(image, context, arena, scratch, film);
+    statistics.passes[Pass::kNoise] = watch.restart();
+    if (filters)
+        filter(image, context, camera, arena, scratch, film);
+    else
+        combine_film(context, arena, film);
     if (image.method == Method::kStochastic) add_samples(arena, film);
     statistics.passes[Pass::kFilter] = watch.restart();
 }

@@ -54,6 +54,7 @@ struct Renderer::State {
     Camera camera;  // without jitter
     shadow::LightSet lights;
     raster::Geometry geometry;
+    FrameScratch frame_scratch;
     std::vector<TileScratch> scratch;    // one per worker
     std::vector<WorkerCounts> counts;    // one per worker
 
@@ -178,7 +179,7 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
         s.render_tiles(pass, context, film, statistics, cancelled);
     }
     if (cancelled == nullptr || !cancelled->load())
-        finish_frame(s.image, context, s.view, s.arena, film, statistics);
+        finish_frame(s.image, context, s.camera, s.arena, s.frame_scratch, film, statistics);
 
     for (const WorkerCounts& count : s.counts) {
         statistics.passes += count.passes;

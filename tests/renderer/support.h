@@ -38,8 +38,8 @@ void each_plane(const Film& f, const Body& body) {
     };
     three("beauty", f.beauty);
     three("U", f.unshadowed);
-    three("S", f.shadowed);
-    three("Un", f.unshadowed_samples);
+    three("S", f.filtered_shadowed);
+    three("Un", f.filtered_unshadowed_samples);
     three("W", f.shadow);
     three("emission", f.emission);
     three("N", f.normal);
