@@ -89,7 +89,7 @@ void store_ray(const RayKernelInputs& kernel, const Vec& place, int x, int y,
     simd::store(scratch.range.row(y) + x, range_to_light(height, F(kernel.range_margin)));
 }
 
-std::uint32_t generate_lanes(const RayKernelInputs& kernel, int x, int y,
+[[gnu::flatten]] std::uint32_t generate_lanes(const RayKernelInputs& kernel, int x, int y,
                              shadow::RayScratch& scratch) {
     const ConstSurfaceView& surface = kernel.inputs->surface;
     const M hit = simd::load<U>(surface.material.row(y) + x) != U(kNothing);

@@ -16,14 +16,20 @@
 
 namespace penumbra {
 
-// A light's part above the horizon, as seen from one point, ready to be sampled.
+// A light's part above the horizon, as seen from one point, ready to be sampled: a fan of triangles
+// around an apex. Triangle i ends in vertex i + 1 of the light and begins in vertex i, or where the
+// outline comes up over the horizon. Places are relative to the light's first vertex.
 template <class F>
 struct PolygonSampler {
-    F half_angles[kMaxPolygonVertices];  // half the solid angle of the triangle that ends in vertex
-                                         // i + 1: (apex, start of edge i, its end)
-    Vec3<F> apex;                        // places: relative to the light's first vertex
-    Vec3<F> entry;                       // where the outline comes up over the horizon, if it does
-    F solid_angle;                       // of all triangles; 0 where nothing is visible
+    struct Corner {
+        Vec3<F> place;
+        F inverse_distance;  // from the point
+    };
+    Corner apex, entry;
+    F inverse_distances[kMaxPolygonVertices];  // of the light's vertices
+    F determinants[kMaxPolygonVertices];       // of the unit vectors to a triangle's corners
+    F half_angles[kMaxPolygonVertices];        // half its solid angle; 0 where there is none
+    F solid_angle;                             // of all triangles; 0 where nothing is visible
 };
 
 template <class F, class T>
@@ -49,40 +55,51 @@ PolygonHit<F> intersect_polygon(const PolygonShape<T>& light, const SeenPolygon<
 
 namespace sampling_detail {
 
-// A corner of a triangle, as seen from the point.
+// A corner of a triangle and the unit vector to it.
 template <class F>
-struct Corner {
-    Vec3<F> place;      // in the light's plane
-    Vec3<F> direction;  // unit
+struct SeenCorner {
+    Vec3<F> place;
     F inverse_distance;
+    Vec3<F> direction;
 };
 
 template <class F>
-Corner<F> make_corner(const SeenPolygon<F>& seen, const Vec3<F>& place) {
-    const Vec3<F> vector = seen.vertices[0] + place;
-    const F inverse = F(1) / simd::sqrt(simd::max(length_squared(vector), F(1e-36f)));
-    return {place, vector * inverse, inverse};
+SeenCorner<F> see_corner(const SeenPolygon<F>& seen, const Vec3<F>& place, F inverse_distance) {
+    return {place, inverse_distance, (seen.vertices[0] + place) * inverse_distance};
 }
 
 template <class F>
-struct SphericalTriangle {
-    F determinant;  // of the unit vectors to the corners, >= 0
-    F denominator;  // determinant / denominator is the tangent of half the solid angle
-};
+SeenCorner<F> see_corner(const SeenPolygon<F>& seen, const Vec3<F>& place) {
+    return see_corner(seen, place, detail::inverse_length(seen.vertices[0] + place));
+}
 
-// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle" (1983). The determinant is twice
-// the triangle's area times the plane's distance, over the corners' distances: no cancellation.
+template <class F>
+SeenCorner<F> select_corner(const simd::MaskOf<F>& mask, const SeenCorner<F>& a,
+                            const SeenCorner<F>& b) {
+    return {select(mask, a.place, b.place),
+            simd::select(mask, a.inverse_distance, b.inverse_distance),
+            select(mask, a.direction, b.direction)};
+}
+
+// Of the unit vectors to the corners: twice the triangle's area times the plane's distance, over
+// the corners' distances. Nothing cancels.
 template <class F, class T>
-SphericalTriangle<F> spherical_triangle(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                                        const Corner<F>& apex, const Corner<F>& start,
-                                        const Corner<F>& end) {
+F unit_determinant(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                   const SeenCorner<F>& apex, const SeenCorner<F>& start,
+                   const SeenCorner<F>& end) {
     const Vec3<F> normal = detail::in_lanes<F>(light.normal);
     const F doubled_area = dot(normal, cross(start.place - apex.place, end.place - apex.place));
-    const F scale = seen.distance * apex.inverse_distance;
     const F nearness = start.inverse_distance * end.inverse_distance;
-    return {simd::max(doubled_area, F(0)) * scale * nearness,
-            F(1) + dot(apex.direction, start.direction) + dot(start.direction, end.direction) +
-                dot(end.direction, apex.direction)};
+    return simd::max(doubled_area, F(0)) * (seen.distance * apex.inverse_distance) * nearness;
+}
+
+// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle" (1983).
+template <class F>
+F half_solid_angle(F determinant, const SeenCorner<F>& apex, const SeenCorner<F>& start,
+                   const SeenCorner<F>& end) {
+    return atan2(determinant, F(1) + dot(apex.direction, start.direction) +
+                                  dot(start.direction, end.direction) +
+                                  dot(end.direction, apex.direction));
 }
 
 // Where the outline leaves the upper side of the horizon and where it comes back.
@@ -109,46 +126,85 @@ HorizonPlaces<F> horizon_places(const PolygonShape<T>& light, const SeenPolygon<
     return places;
 }
 
-// The fraction of the way from `start` to `end` at which a sub-triangle of the fan ends that has
-// the share `share` of the triangle's solid angle. The end's direction is that of `start`,
-// reflected about o = from_start * start + from_end * end.
+// One triangle of the fan and how much of it, as half a solid angle, lies before the sample.
 template <class F>
-F sub_triangle_place(const SphericalTriangle<F>& triangle, const Corner<F>& apex,
-                     const Corner<F>& start, const Corner<F>& end, F half_angle) {
+struct ChosenTriangle {
+    SeenCorner<F> start, end;
+    F determinant, half_angle_before;
+};
+
+template <class F, class T>
+ChosenTriangle<F> choose_triangle(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                                  const PolygonSampler<F>& sampler, F random) {
+    const F wanted = random * (F(0.5f) * sampler.solid_angle);
+    F begin = F(0), chosen_begin = F(0), chosen_half = F(0), determinant = F(0);
+    Vec3<F> start_place = sampler.apex.place, end_place = sampler.apex.place;
+    F start_inverse = sampler.apex.inverse_distance, end_inverse = sampler.apex.inverse_distance;
+    for (int i = 0; i < light.count; ++i) {
+        const int next = i + 1 < light.count ? i + 1 : 0;
+        const F half = sampler.half_angles[i];
+        // The last one that begins before the wanted share: never an empty one.
+        const auto chosen = (half > F(0)) & (begin <= wanted);
+        const auto below = seen.heights[i] < F(0);
+        start_place = select(
+            chosen, select(below, sampler.entry.place, detail::in_lanes<F>(light.offsets[i])),
+            start_place);
+        start_inverse = simd::select(
+            chosen,
+            simd::select(below, sampler.entry.inverse_distance, sampler.inverse_distances[i]),
+            start_inverse);
+        end_place = select(chosen, detail::in_lanes<F>(light.offsets[next]), end_place);
+        end_inverse = simd::select(chosen, sampler.inverse_distances[next], end_inverse);
+        determinant = simd::select(chosen, sampler.determinants[i], determinant);
+        chosen_begin = simd::select(chosen, begin, chosen_begin);
+        chosen_half = simd::select(chosen, half, chosen_half);
+        begin += half;
+    }
+    return {see_corner(seen, start_place, start_inverse), see_corner(seen, end_place, end_inverse),
+            determinant, simd::min(wanted - chosen_begin, chosen_half)};
+}
+
+// The fraction of the way from the triangle's start to its end at which the sub-triangle ends that
+// holds the solid angle before the sample. The direction there is that of the start, reflected
+// about o = from_start * start + from_end * end.
+template <class F>
+F sub_triangle_place(const ChosenTriangle<F>& triangle, const SeenCorner<F>& apex) {
+    const SeenCorner<F>& start = triangle.start;
+    const SeenCorner<F>& end = triangle.end;
     F sine, cosine;
-    sincos(half_angle, sine, cosine);
+    sincos(triangle.half_angle_before, sine, cosine);
+    // Only the ratio of the two factors counts: scaled so that their squares do not underflow for
+    // lights of 1e-12 sr.
+    const F share = sine * F(0x1p32f);
     const F start_end = dot(start.direction, end.direction);
-    const F scale = F(1) / simd::max(triangle.determinant + sine, F(1e-36f));
-    const F share = sine * scale;
-    const F across = dot(apex.direction, start.direction);
-    const F from_end = (F(1) + across) * share;
-    const F from_start = simd::fma(triangle.determinant * scale, cosine,
+    const F from_end = (F(1) + dot(apex.direction, start.direction)) * share;
+    const F from_start = simd::fma(triangle.determinant * F(0x1p32f), cosine,
                                    -((start_end + dot(apex.direction, end.direction)) * share));
     const F along_start = simd::fma(from_end, start_end, from_start);
     const F along_end = simd::fma(from_start, start_end, from_end);
-    const F squared =
-        simd::max(simd::fma(from_start, along_start, from_end * along_end), F(1e-36f));
-    const F twice = F(2) * along_start / squared;
-    // Weights of the unit vectors, then of the places.
+    const F twice = along_start + along_start;
+    const F squared = simd::fma(from_start, along_start, from_end * along_end);
+    // Weights of the unit vectors times |o|^2, then of the places.
     const F start_weight =
-        simd::max(simd::fma(twice, from_start, F(-1)), F(0)) * start.inverse_distance;
+        simd::max(simd::fma(twice, from_start, -squared), F(0)) * start.inverse_distance;
     const F end_weight = simd::max(twice * from_end, F(0)) * end.inverse_distance;
     return end_weight / simd::max(start_weight + end_weight, F(1e-36f));
 }
 
 // The fraction of the way from the apex to `opposite` of the direction whose 1 - cosine is `random`
-// times that of the whole arc.
+// times that of the whole arc: the weights of the two unit vectors are z - c s and s with z = 1 -
+// part, c = 1 - whole and s = sqrt((1 - z^2) / (1 - c^2)), here times 2 - whole.
 template <class F>
-F arc_place(const Corner<F>& apex, const Corner<F>& opposite, F random) {
+F arc_place(const SeenCorner<F>& apex, const SeenCorner<F>& opposite, F random) {
     const Vec3<F> chord = opposite.direction - apex.direction;
     const F whole = simd::min(F(0.5f) * length_squared(chord), F(1.9999998f));
     const F part = random * whole;
-    // sqrt((1 - z^2) / (1 - c^2)) with z = 1 - part and c = 1 - whole.
-    const F ratio = simd::sqrt(random * (F(2) - part) / (F(2) - whole));
-    const F apex_weight = simd::max((F(1) - part) - ratio * (F(1) - whole), F(0));
-    const F far_weight = ratio * opposite.inverse_distance;
+    const F rest = F(2) - whole;
+    const F far_unit = simd::sqrt(random * (F(2) - part) * rest);
+    const F apex_unit = simd::max(simd::fma(F(1) - part, rest, -(far_unit * (F(1) - whole))), F(0));
+    const F far_weight = far_unit * opposite.inverse_distance;
     return far_weight /
-           simd::max(simd::fma(apex_weight, apex.inverse_distance, far_weight), F(1e-36f));
+           simd::max(simd::fma(apex_unit, apex.inverse_distance, far_weight), F(1e-36f));
 }
 
 }  // namespace sampling_detail
@@ -157,33 +213,37 @@ template <class F, class T>
 PolygonSampler<F> make_polygon_sampler(const PolygonShape<T>& light, const SeenPolygon<F>& seen) {
     using namespace sampling_detail;
     PolygonSampler<F> sampler;
-    sampler.apex = sampler.entry = {F(0), F(0), F(0)};
     const auto cut = seen.crosses_horizon;
-    if (simd::any(cut)) {
+    const bool any_cut = simd::any(cut);
+    SeenCorner<F> corner = see_corner(seen, detail::in_lanes<F>(light.offsets[0]));
+    SeenCorner<F> apex = corner, entry = corner;
+    sampler.inverse_distances[0] = corner.inverse_distance;
+    if (any_cut) {
         const HorizonPlaces<F> places = horizon_places(light, seen);
-        sampler.apex = select(cut, places.exit, sampler.apex);
-        sampler.entry = places.entry;
+        apex = select_corner(cut, see_corner(seen, places.exit), corner);
+        entry = see_corner(seen, places.entry);
     }
-    const Corner<F> apex = make_corner(seen, sampler.apex);
-    const Corner<F> entry = make_corner(seen, sampler.entry);
-    Corner<F> corner = make_corner(seen, detail::in_lanes<F>(light.offsets[0]));
+    sampler.apex = {apex.place, apex.inverse_distance};
+    sampler.entry = {entry.place, entry.inverse_distance};
     F total = F(0);
     for (int i = 0; i < light.count; ++i) {
         const int next = i + 1 < light.count ? i + 1 : 0;
-        const Corner<F> end = make_corner(seen, detail::in_lanes<F>(light.offsets[next]));
-        const auto below = seen.heights[i] < F(0);
-        const Corner<F> start = {
-            select(below, entry.place, corner.place),
-            select(below, entry.direction, corner.direction),
-            simd::select(below, entry.inverse_distance, corner.inverse_distance)};
-        const auto triangle = spherical_triangle(light, seen, apex, start, end);
-        const F half = atan2(triangle.determinant, triangle.denominator);
+        const SeenCorner<F> end = see_corner(seen, detail::in_lanes<F>(light.offsets[next]));
         // An uncut fan has its apex at vertex 0: the two edges there span no triangle.
         const bool touches_apex = i == 0 || next == 0;
-        const auto spans =
-            seen.lit & !(seen.heights[next] < F(0)) & (cut | simd::MaskOf<F>(!touches_apex));
-        sampler.half_angles[i] = simd::select(spans, half, F(0));
-        total += sampler.half_angles[i];
+        F determinant = F(0), half = F(0);
+        if (any_cut || !touches_apex) {
+            const auto below = seen.heights[i] < F(0);
+            const SeenCorner<F> start = any_cut ? select_corner(below, entry, corner) : corner;
+            determinant = unit_determinant(light, seen, apex, start, end);
+            const auto spans =
+                seen.lit & !(seen.heights[next] < F(0)) & (cut | simd::MaskOf<F>(!touches_apex));
+            half = simd::select(spans, half_solid_angle(determinant, apex, start, end), F(0));
+        }
+        sampler.inverse_distances[next] = end.inverse_distance;
+        sampler.determinants[i] = determinant;
+        sampler.half_angles[i] = half;
+        total += half;
         corner = end;
     }
     sampler.solid_angle = F(2) * total;
@@ -194,29 +254,11 @@ template <class F, class T>
 Vec3<F> sample_polygon(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
                        const PolygonSampler<F>& sampler, const Vec2<F>& random) {
     using namespace sampling_detail;
-    // The last triangle that begins before the wanted share of the solid angle: never an empty one.
-    const F wanted = random.x * (F(0.5f) * sampler.solid_angle);
-    F begin = F(0), chosen_begin = F(0), chosen_half = F(0);
-    Vec3<F> start_place = sampler.apex, end_place = sampler.apex;
-    for (int i = 0; i < light.count; ++i) {
-        const int next = i + 1 < light.count ? i + 1 : 0;
-        const F half = sampler.half_angles[i];
-        const auto chosen = (half > F(0)) & (begin <= wanted);
-        const Vec3<F> start =
-            select(seen.heights[i] < F(0), sampler.entry, detail::in_lanes<F>(light.offsets[i]));
-        start_place = select(chosen, start, start_place);
-        end_place = select(chosen, detail::in_lanes<F>(light.offsets[next]), end_place);
-        chosen_begin = simd::select(chosen, begin, chosen_begin);
-        chosen_half = simd::select(chosen, half, chosen_half);
-        begin += half;
-    }
-    const Corner<F> apex = make_corner(seen, sampler.apex);
-    const Corner<F> start = make_corner(seen, start_place);
-    const Corner<F> end = make_corner(seen, end_place);
-    const auto triangle = spherical_triangle(light, seen, apex, start, end);
-    const F half = simd::min(wanted - chosen_begin, chosen_half);
-    const F along = sub_triangle_place(triangle, apex, start, end, half);
-    const Corner<F> opposite = make_corner(seen, fma(end_place - start_place, along, start_place));
+    const ChosenTriangle<F> triangle = choose_triangle(light, seen, sampler, random.x);
+    const SeenCorner<F> apex = see_corner(seen, sampler.apex.place, sampler.apex.inverse_distance);
+    const F along = sub_triangle_place(triangle, apex);
+    const Vec3<F> side = triangle.end.place - triangle.start.place;
+    const SeenCorner<F> opposite = see_corner(seen, fma(side, along, triangle.start.place));
     const F outward = arc_place(apex, opposite, random.y);
     return fma(opposite.place - apex.place, outward, apex.place);
 }
