@@ -27,8 +27,10 @@
 namespace penumbra::image {
 namespace {
 
-// Level 2 instead of OpenEXR's 4: see the figures in docs; level 1..4 hold the same pixels.
-constexpr int kZipLevel = 2;
+// Deflate's effort. On a 1080p RGBA frame with grain, CPU time and size at levels 1, 2, 3, 4
+// (OpenEXR's own choice): 142, 172, 171, 211 ms and 4.12, 4.06, 3.95, 3.86 MB. The pixels are the
+// same.
+constexpr int kZipLevel = 1;
 
 // A file that remembers its first failure: OpenEXR writes its table of offsets in a destructor,
 // where it swallows exceptions.
