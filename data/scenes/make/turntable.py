@@ -106,10 +106,10 @@ def scene():
              "translate": [0, PEDESTAL_TOP, 0]},
             {"name": "halo", "file": "halo.obj", "rotate": [17, 0, 0], "translate": [0, 2.2, 0],
              "keys": turning(17, 1)},
-            {"name": "hoop", "file": "hoop.obj", "rotate": [-13, 0, 0],
-             "translate": [0, 0.86, 0], "keys": turning(-13, -1)}],
+            {"name": "hoop", "file": "hoop.obj", "rotate": [-5, 0, 0],
+             "translate": [0, 0.86, 0], "keys": turning(-5, -1)}],
         "lights": [
-            rect("evening", (-2.5, 2.72, -5.7), (0.2, 0.4, 0.8), (0.13, 0.13), [5200, 2950, 1400]),
+            rect("evening", (-2.5, 2.72, -5.7), (0.2, 0.4, 0.8), (0.13, 0.13), [3000, 1700, 810]),
             rect("lamp", (0.02, 5.2, 0.03), (0, 0, 0), (0.28, 0.28), [92, 86, 77]),
             rect("window", (4.9, 4.6, 4.6), (0, 0.9, -0.5), (1.5, 1.1), [4.6, 7.0, 10.6])],
         "animation": {"fps": RATE, "frames": [1, FRAMES]},
