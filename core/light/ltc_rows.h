@@ -33,22 +33,18 @@ Cell<F> find_cell(const F& slow, const F& fast) {
             fast - fast_floor};
 }
 
-// Rows interpolated along the slow axis, at the lower and upper neighbour along the fast one.
-template <class F>
-struct RowPair {
-    LtcRow<F> lower, upper;
-};
-
-inline RowPair<float> load_row_pairs(const float* table, int slow_stride, const Cell<float>& cell) {
+// All paths interpolate along the slow axis first, with the same operations on each number.
+inline LtcRow<float> interpolate(const float* table, int slow_stride, const Cell<float>& cell) {
     const float* near_rows = table + cell.row * kLtcRowFloats;
     const float* far_rows = near_rows + slow_stride;
-    RowPair<float> pair{};
+    LtcRow<float> row{};
     for (int i = 0; i < kLtcRowFloats; ++i) {
-        pair.lower.column[i] = simd::lerp(near_rows[i], far_rows[i], cell.slow_fraction);
-        pair.upper.column[i] = simd::lerp(near_rows[i + kLtcRowFloats], far_rows[i + kLtcRowFloats],
-                                          cell.slow_fraction);
+        const int next = i + kLtcRowFloats;
+        const float lower = simd::lerp(near_rows[i], far_rows[i], cell.slow_fraction);
+        const float upper = simd::lerp(near_rows[next], far_rows[next], cell.slow_fraction);
+        row.column[i] = simd::lerp(lower, upper, cell.fast_fraction);
     }
-    return pair;
+    return row;
 }
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -72,33 +68,33 @@ inline void transpose(__m256 (&row)[8]) {
     }
 }
 
-// One neighbour along the fast axis: its rows, interpolated along the slow axis, as columns.
-inline LtcRow<simd::Float<simd::Avx2>> load_rows(const float* table, int slow_stride,
-                                                 const std::int32_t* row_index,
-                                                 const float* slow_fraction) {
+inline __m256 lerp_rows(__m256 a, __m256 b, __m256 t) {
+    return _mm256_fmadd_ps(t, _mm256_sub_ps(b, a), a);
+}
+
+inline LtcRow<simd::Float<simd::Avx2>> interpolate(const float* table, int slow_stride,
+                                                   const Cell<simd::Float<simd::Avx2>>& cell) {
+    alignas(32) std::int32_t row_index[8];
+    alignas(32) float slow_fraction[8];
+    alignas(32) float fast_fraction[8];
+    simd::store(row_index, cell.row);
+    simd::store(slow_fraction, cell.slow_fraction);
+    simd::store(fast_fraction, cell.fast_fraction);
     __m256 row[8];
     for (int lane = 0; lane < 8; ++lane) {
-        const float* from = table + row_index[lane] * kLtcRowFloats;
-        const __m256 near_row = _mm256_load_ps(from);
-        const __m256 far_row = _mm256_load_ps(from + slow_stride);
-        row[lane] = _mm256_fmadd_ps(_mm256_broadcast_ss(slow_fraction + lane),
-                                    _mm256_sub_ps(far_row, near_row), near_row);
+        const float* near_rows = table + row_index[lane] * kLtcRowFloats;
+        const float* far_rows = near_rows + slow_stride;
+        const __m256 slow = _mm256_broadcast_ss(slow_fraction + lane);
+        const __m256 lower = lerp_rows(_mm256_load_ps(near_rows), _mm256_load_ps(far_rows), slow);
+        const __m256 upper = lerp_rows(_mm256_load_ps(near_rows + kLtcRowFloats),
+                                       _mm256_load_ps(far_rows + kLtcRowFloats), slow);
+        row[lane] = lerp_rows(lower, upper, _mm256_broadcast_ss(fast_fraction + lane));
     }
     transpose(row);
     LtcRow<simd::Float<simd::Avx2>> columns;
     for (int i = 0; i < kLtcRowFloats; ++i)
         columns.column[i] = simd::Float<simd::Avx2>::Batch(row[i]);
     return columns;
-}
-
-inline RowPair<simd::Float<simd::Avx2>> load_row_pairs(const float* table, int slow_stride,
-                                                       const Cell<simd::Float<simd::Avx2>>& cell) {
-    alignas(32) std::int32_t row_index[8];
-    alignas(32) float slow_fraction[8];
-    simd::store(row_index, cell.row);
-    simd::store(slow_fraction, cell.slow_fraction);
-    return {load_rows(table, slow_stride, row_index, slow_fraction),
-            load_rows(table + kLtcRowFloats, slow_stride, row_index, slow_fraction)};
 }
 #endif
 
@@ -117,8 +113,13 @@ inline void transpose_quarters(__m512 (&row)[16]) {
     }
 }
 
-inline RowPair<simd::Float<simd::Avx512>> load_row_pairs(
-    const float* table, int slow_stride, const Cell<simd::Float<simd::Avx512>>& cell) {
+template <int kSelection>
+simd::Float<simd::Avx512> join_quarters(__m512 a, __m512 b) {
+    return simd::Float<simd::Avx512>::Batch(_mm512_shuffle_f32x4(a, b, kSelection));
+}
+
+inline LtcRow<simd::Float<simd::Avx512>> interpolate(const float* table, int slow_stride,
+                                                     const Cell<simd::Float<simd::Avx512>>& cell) {
     alignas(64) std::int32_t row_index[16];
     alignas(64) float slow_fraction[16];
     simd::store(row_index, cell.row);
@@ -132,20 +133,20 @@ inline RowPair<simd::Float<simd::Avx512>> load_row_pairs(
                                     _mm512_sub_ps(far_rows, near_rows), near_rows);
     }
     transpose_quarters(row);
-    RowPair<simd::Float<simd::Avx512>> pair;
+    LtcRow<simd::Float<simd::Avx512>> columns;
     for (int i = 0; i < 4; ++i) {
-        // Quarter q of row[i + 4 b] holds column 4 q + i of the lanes 4 b ... 4 b + 3.
+        // Quarter q of row[i + 4 b] holds column 4 q + i of the lanes 4 b ... 4 b + 3, where
+        // columns 8 to 15 are those of the upper neighbour along the fast axis.
         const __m512 low01 = _mm512_shuffle_f32x4(row[i], row[i + 4], 0x44);
         const __m512 high01 = _mm512_shuffle_f32x4(row[i], row[i + 4], 0xEE);
         const __m512 low23 = _mm512_shuffle_f32x4(row[i + 8], row[i + 12], 0x44);
         const __m512 high23 = _mm512_shuffle_f32x4(row[i + 8], row[i + 12], 0xEE);
-        using Batch = simd::Float<simd::Avx512>::Batch;
-        pair.lower.column[i] = Batch(_mm512_shuffle_f32x4(low01, low23, 0x88));
-        pair.lower.column[i + 4] = Batch(_mm512_shuffle_f32x4(low01, low23, 0xDD));
-        pair.upper.column[i] = Batch(_mm512_shuffle_f32x4(high01, high23, 0x88));
-        pair.upper.column[i + 4] = Batch(_mm512_shuffle_f32x4(high01, high23, 0xDD));
+        columns.column[i] = simd::lerp(join_quarters<0x88>(low01, low23),
+                                       join_quarters<0x88>(high01, high23), cell.fast_fraction);
+        columns.column[i + 4] = simd::lerp(join_quarters<0xDD>(low01, low23),
+                                           join_quarters<0xDD>(high01, high23), cell.fast_fraction);
     }
-    return pair;
+    return columns;
 }
 #endif
 
@@ -156,11 +157,7 @@ inline RowPair<simd::Float<simd::Avx512>> load_row_pairs(
 template <int kSlowNodes, int kFastNodes, class F>
 LtcRow<F> ltc_interpolate_rows(const float* table, const F& slow, const F& fast) {
     const auto cell = ltc_detail::find_cell<kSlowNodes, kFastNodes>(slow, fast);
-    const auto pair = ltc_detail::load_row_pairs(table, kFastNodes * kLtcRowFloats, cell);
-    LtcRow<F> row{};
-    for (int i = 0; i < kLtcRowFloats; ++i)
-        row.column[i] = simd::lerp(pair.lower.column[i], pair.upper.column[i], cell.fast_fraction);
-    return row;
+    return ltc_detail::interpolate(table, kFastNodes * kLtcRowFloats, cell);
 }
 
 }  // namespace penumbra
