@@ -23,20 +23,35 @@ void store_vector(Plane3<float>& planes, int x, int y, const Vec& value) {
     simd::store(planes[2].row(y) + x, value.z);
 }
 
-// What the light does at some pixels, whichever sample is taken.
-struct Setting {
+// Some neighbouring pixels on the way through the stages below. A row of a tile goes through each
+// stage before the next begins: the stages are long chains of dependent operations, and short loops
+// over them let the processor work on several blocks at once (a third faster than all stages in
+// one).
+struct Block {
+    int x = 0;
+    M lit;
     Vec position, normal;
     SeenPolygon<F> seen;
     PolygonSampler<F> sampler;
-    M lit;
+    Vec place;            // of the sample, relative to the light's first vertex
+    Vec view, direction;  // of eye and sample, in the frame of the shading normal
+    Brdf<F> brdf;
 };
 
-// A point of the light, and what light from there is worth.
-struct Sample {
-    Vec place;  // relative to the light's first vertex
-    Vec weight;
-    M useful;
-};
+// The light as these pixels see it; false where it gives them nothing.
+[[gnu::flatten]] bool see_light(const RayKernelInputs& kernel, int y, Block& block) {
+    const ConstSurfaceView& surface = kernel.inputs->surface;
+    const M hit = simd::load<U>(surface.material.row(y) + block.x) != U(kNothing);
+    if (simd::none(hit)) return false;
+    block.position = load_vector(surface.position, block.x, y);
+    block.normal = load_vector(surface.normal, block.x, y);
+    block.seen = see_polygon(kernel.shape, block.position, block.normal);
+    block.seen.lit &= hit;
+    if (simd::none(block.seen.lit)) return false;
+    block.sampler = make_polygon_sampler(kernel.shape, block.seen);
+    block.lit = block.seen.lit & (block.sampler.solid_angle > F(0));
+    return true;
+}
 
 Vec2<F> random_numbers(const RayKernelInputs& kernel, int x, int y) {
     const Tile& tile = kernel.inputs->tile;
@@ -45,37 +60,58 @@ Vec2<F> random_numbers(const RayKernelInputs& kernel, int x, int y) {
     return sequence_point<F>(kernel.sequence, pixel_x, pixel_y, kernel.sample_in_technique);
 }
 
-Brdf<F> load_brdf(const ConstSurfaceView& surface, int x, int y) {
-    return make_brdf(load_vector(surface.base_color, x, y),
-                     simd::load<F>(surface.roughness.row(y) + x),
-                     simd::load<F>(surface.metallic.row(y) + x),
-                     simd::load<F>(surface.dielectric_f0.row(y) + x));
+void load_material(const RayKernelInputs& kernel, int y, Block& block, const Frame<F>& frame) {
+    const ConstSurfaceView& surface = kernel.inputs->surface;
+    const int x = block.x;
+    block.brdf = make_brdf(load_vector(surface.base_color, x, y),
+                           simd::load<F>(surface.roughness.row(y) + x),
+                           simd::load<F>(surface.metallic.row(y) + x),
+                           simd::load<F>(surface.dielectric_f0.row(y) + x));
+    block.view = frame.to_local(normalize(broadcast<F>(kernel.inputs->eye) - block.position));
 }
 
-Sample take_sample(const RayKernelInputs& kernel, const Setting& setting, int x, int y) {
-    const ConstSurfaceView& surface = kernel.inputs->surface;
-    const Brdf<F> brdf = load_brdf(surface, x, y);
-    const Frame<F> frame = frame_from_normal(setting.normal);
-    const Vec view = frame.to_local(normalize(broadcast<F>(kernel.inputs->eye) - setting.position));
-    const Vec2<F> random = random_numbers(kernel, x, y);
-    Sample sample;
-    sample.useful = setting.lit;
-    sample.place = sample_polygon(kernel.shape, setting.seen, setting.sampler, random);
-    const Vec direction = frame.to_local(normalize(setting.seen.vertices[0] + sample.place));
-    const GgxLobe<F> lobe = ggx_evaluate(brdf.alpha, view, direction);
-    const F light_density = F(1) / simd::select(setting.lit, setting.sampler.solid_angle, F(1));
+// A point of the light, by its solid angle.
+[[gnu::flatten]] void choose_by_light(const RayKernelInputs& kernel, int y, Block& block) {
+    const Vec2<F> random = random_numbers(kernel, block.x, y);
+    block.place = sample_polygon(kernel.shape, block.seen, block.sampler, random);
+    const Frame<F> frame = frame_from_normal(block.normal);
+    load_material(kernel, y, block, frame);
+    block.direction = frame.to_local(normalize(block.seen.vertices[0] + block.place));
+}
+
+// The same, by the BRDF's visible normals: where the reflected direction meets the light, if it
+// does.
+[[gnu::flatten]] void choose_by_brdf(const RayKernelInputs& kernel, int y, Block& block) {
+    const Vec2<F> random = random_numbers(kernel, block.x, y);
+    const Frame<F> frame = frame_from_normal(block.normal);
+    load_material(kernel, y, block, frame);
+    block.direction = ggx_sample_direction(block.brdf.alpha, block.view, random);
+    const auto meets = intersect_polygon(kernel.shape, block.seen, frame.to_world(block.direction));
+    block.lit &= meets.hit & (block.direction.z > F(0));
+    block.place = meets.place;
+}
+
+// BRDF cosine radiance / density, over the number of samples. Returns which pixels get a ray.
+[[gnu::flatten]] std::uint32_t weigh(const RayKernelInputs& kernel, int y, const Block& block,
+                                     shadow::RayScratch& scratch) {
+    const GgxLobe<F> lobe = ggx_evaluate(block.brdf.alpha, block.view, block.direction);
+    const F light_density = F(1) / simd::select(block.lit, block.sampler.solid_angle, F(1));
     const F factor = balance_factor(F(static_cast<float>(kernel.shares.light)), light_density,
                                     F(static_cast<float>(kernel.shares.brdf)), lobe.density);
-    const Vec reflected = lambert_times_cosine(brdf.diffuse_albedo, direction.z) +
-                          ggx_specular_times_cosine(lobe, brdf.f0);
-    sample.weight = reflected * broadcast<F>(kernel.radiance) * factor;
-    return sample;
+    const Vec reflected = lambert_times_cosine(block.brdf.diffuse_albedo, block.direction.z) +
+                          ggx_specular_times_cosine(lobe, block.brdf.f0);
+    const Vec weight = reflected * broadcast<F>(kernel.radiance) * factor;
+    const M useful = block.lit & (weight.x + weight.y + weight.z > F(0));
+    const Vec nothing = {F(0), F(0), F(0)};
+    store_vector(scratch.weight, block.x, y, select(useful, weight, nothing));
+    return simd::bits(useful);
 }
 
-// The ray from the surface to a place on the light, ending short of the light's plane.
-void store_ray(const RayKernelInputs& kernel, const Vec& place, int x, int y,
-               shadow::RayScratch& scratch) {
+// The ray from the surface to the sample, ending short of the light's plane.
+[[gnu::flatten]] void store_ray(const RayKernelInputs& kernel, int y, const Block& block,
+                                shadow::RayScratch& scratch) {
     const ConstSurfaceView& surface = kernel.inputs->surface;
+    const int x = block.x;
     const U instance = simd::load<U>(surface.instance.row(y) + x);
     const I index = I(simd::select(instance == U(kNothing), U(0u), instance));
     const F scale = simd::gather(kernel.offset_scales, index);
@@ -85,40 +121,32 @@ void store_ray(const RayKernelInputs& kernel, const Vec& place, int x, int y,
     const Vec to_vertex = broadcast<F>(kernel.shape.vertices[0]) - origin;
     const F height = simd::abs(dot(broadcast<F>(kernel.shape.normal), to_vertex));
     store_vector(scratch.origin, x, y, origin);
-    store_vector(scratch.direction, x, y, to_vertex + place);
+    store_vector(scratch.direction, x, y, to_vertex + block.place);
     simd::store(scratch.range.row(y) + x, range_to_light(height, F(kernel.range_margin)));
 }
 
-[[gnu::flatten]] std::uint32_t generate_lanes(const RayKernelInputs& kernel, int x, int y,
-                             shadow::RayScratch& scratch) {
-    const ConstSurfaceView& surface = kernel.inputs->surface;
-    const M hit = simd::load<U>(surface.material.row(y) + x) != U(kNothing);
-    if (simd::none(hit)) return 0;
-    Setting setting;
-    setting.position = load_vector(surface.position, x, y);
-    setting.normal = load_vector(surface.normal, x, y);
-    setting.seen = see_polygon(kernel.shape, setting.position, setting.normal);
-    setting.seen.lit &= hit;
-    if (simd::none(setting.seen.lit)) return 0;
-    setting.sampler = make_polygon_sampler(kernel.shape, setting.seen);
-    setting.lit = setting.seen.lit & (setting.sampler.solid_angle > F(0));
-    const Sample sample = take_sample(kernel, setting, x, y);
-    const M useful = sample.useful & (sample.weight.x + sample.weight.y + sample.weight.z > F(0));
-    store_ray(kernel, sample.place, x, y, scratch);
-    const Vec nothing = {F(0), F(0), F(0)};
-    store_vector(scratch.weight, x, y, select(useful, sample.weight, nothing));
-    return simd::bits(useful);
+// Returns which pixels of the row get a ray.
+std::uint64_t generate_row(const RayKernelInputs& kernel, int y, shadow::RayScratch& scratch) {
+    Block blocks[kTileSize / kLanes];
+    int count = 0;
+    for (int x = 0; x < kTileSize; x += kLanes) {
+        blocks[count].x = x;
+        if (see_light(kernel, y, blocks[count])) ++count;
+    }
+    for (int i = 0; i < count; ++i)
+        kernel.from_brdf ? choose_by_brdf(kernel, y, blocks[i])
+                         : choose_by_light(kernel, y, blocks[i]);
+    std::uint64_t active = 0;
+    for (int i = 0; i < count; ++i)
+        active |= static_cast<std::uint64_t>(weigh(kernel, y, blocks[i], scratch)) << blocks[i].x;
+    for (int i = 0; i < count; ++i) store_ray(kernel, y, blocks[i], scratch);
+    return active;
 }
 
 }  // namespace
 
 void generate_rays(const RayKernelInputs& kernel, shadow::RayScratch& scratch) {
-    for (int y = 0; y < kTileSize; ++y) {
-        std::uint64_t active = 0;
-        for (int x = 0; x < kTileSize; x += kLanes)
-            active |= static_cast<std::uint64_t>(generate_lanes(kernel, x, y, scratch)) << x;
-        scratch.active[y] = active;
-    }
+    for (int y = 0; y < kTileSize; ++y) scratch.active[y] = generate_row(kernel, y, scratch);
 }
 
 }  // namespace penumbra::PENUMBRA_ISA
