@@ -45,8 +45,8 @@ struct FilterCentre {
     Vec3<F> normal;
     F slope;        // normal . (view direction through the pixel, of view depth 1)
     F slope_step;   // its change from one tap to the next
-    F plane;        // normal . (position - eye), metres
-    F plane_scale;  // settings.plane_weight / length of a pixel's step on the tangent plane
+    F minus_plane;  // -normal . (position - eye), metres
+    F minus_scale;  // -settings.plane_weight / length of a pixel's step on the tangent plane
     F gauss;        // the Gaussian at one pixel's distance
     F reach;        // taps up to here count, pixels
 };
@@ -60,13 +60,13 @@ FilterCentre<F> filter_centre(const Guide<F>& guide, F radius, const Vec3<F>& di
     centre.normal = guide.normal;
     centre.slope = dot(guide.normal, direction);
     centre.slope_step = dot(guide.normal, broadcast<F>(step));
-    centre.plane = guide.depth * centre.slope;
+    centre.minus_plane = -(guide.depth * centre.slope);
 
     // A step to the next pixel moves depth * |step| across the view, and the more along it the more
     // edge-on the surface is.
     const F slant = centre.slope_step / simd::min(centre.slope, F(-1e-3f));
     const F pixel = guide.depth * simd::sqrt(simd::fma(slant, slant, F(dot(step, step))));
-    centre.plane_scale = F(settings.plane_weight) / pixel;
+    centre.minus_scale = F(-settings.plane_weight) / pixel;
 
     constexpr float kLog2E = 1.44269504f;
     centre.gauss = exp2(F(-kLog2E) / (radius * radius));
@@ -74,50 +74,47 @@ FilterCentre<F> filter_centre(const Guide<F>& guide, F radius, const Vec3<F>& di
     return centre;
 }
 
-// The weight of the tap at signed distance `r`, but for the Gaussian. `plane_scale` is the centre's
+// The weight of the tap at signed distance `r`, but for the Gaussian. `minus_scale` is the centre's
 // over |r|.
 template <class F>
-F geometry_weight(const FilterCentre<F>& centre, const Guide<F>& tap, F r, F plane_scale,
+F geometry_weight(const FilterCentre<F>& centre, const Guide<F>& tap, F r, F minus_scale,
                   F normal_weight) {
     const F cosine = simd::max(dot(centre.normal, tap.normal), F(0));
     const F square = cosine * cosine;
     const F normal = simd::fma(simd::fma(square, square, F(-1)), normal_weight, F(1));
     const F slope = simd::fma(r, centre.slope_step, centre.slope);
-    const F distance = simd::abs(simd::fma(tap.depth, slope, -centre.plane));
-    const F plane = simd::max(simd::fma(-distance, plane_scale, F(1)), F(0));
+    const F distance = simd::abs(simd::fma(tap.depth, slope, centre.minus_plane));
+    const F plane = simd::max(simd::fma(distance, minus_scale, F(1)), F(0));
     return simd::max(normal, F(0)) * (plane * plane);
 }
 
 // Where a pixel's guides and sums lie in memory; neighbours are a constant distance apart.
 struct FilterSources {
-    static constexpr int kSums = 6;  // S_N's channels, then U_N's
     const float* depth;
     const float* normal[3];
-    const float* sums[kSums];
-
-    template <class F>
-    [[nodiscard]] Guide<F> guide(std::ptrdiff_t offset) const {
-        return {simd::load<F>(depth + offset),
-                {simd::load<F>(normal[0] + offset), simd::load<F>(normal[1] + offset),
-                 simd::load<F>(normal[2] + offset)}};
-    }
+    const float* shadowed[3];            // S_N
+    const float* unshadowed_samples[3];  // U_N
 };
 
-// Weighted sums over the taps, the centre's weight being 1.
 template <class F>
-struct FilterSums {
-    F sums[FilterSources::kSums];
-    F weights = F(1);
+Vec3<F> load3(const float* const (&planes)[3], std::ptrdiff_t offset) {
+    return {simd::load<F>(planes[0] + offset), simd::load<F>(planes[1] + offset),
+            simd::load<F>(planes[2] + offset)};
+}
+template <class F>
+Guide<F> load_guide(const FilterSources& at, std::ptrdiff_t offset) {
+    return {simd::load<F>(at.depth + offset), load3<F>(at.normal, offset)};
+}
 
-    explicit FilterSums(const FilterSources& at) {
-        for (int i = 0; i < FilterSources::kSums; ++i) sums[i] = simd::load<F>(at.sums[i]);
-    }
-    void add(const FilterSources& at, std::ptrdiff_t offset, F weight) {
-        weights += weight;
-        for (int i = 0; i < FilterSources::kSums; ++i)
-            sums[i] = simd::fma(weight, simd::load<F>(at.sums[i] + offset), sums[i]);
-    }
+// S_N and U_N of a pixel, or their weighted sums.
+template <class F>
+struct Light {
+    Vec3<F> shadowed, unshadowed_samples;
 };
+template <class F>
+Light<F> load_light(const FilterSources& at, std::ptrdiff_t offset) {
+    return {load3<F>(at.shadowed, offset), load3<F>(at.unshadowed_samples, offset)};
+}
 
 // Which taps exist: signed distances, -taps.before ... taps.after.
 struct FilterTaps {
@@ -125,52 +122,82 @@ struct FilterTaps {
     std::ptrdiff_t step;  // elements from one to the next
 };
 
+// Weighted sums over the taps; the centre weighs 1.
+template <class F>
+struct FilterSums {
+    Light<F> light;
+    F weights;
+};
+
+template <class F>
+void add_tap(FilterSums<F>& sums, const FilterSources& at, std::ptrdiff_t offset, F weight) {
+    const Light<F> tap = load_light<F>(at, offset);
+    sums.light.shadowed = fma(tap.shadowed, weight, sums.light.shadowed);
+    sums.light.unshadowed_samples =
+        fma(tap.unshadowed_samples, weight, sums.light.unshadowed_samples);
+    sums.weights += weight;
+}
+
 template <class F>
 FilterSums<F> filter_sums(const FilterSources& at, const FilterTaps& taps,
                           const FilterCentre<F>& centre, const FilterSettings& settings) {
-    FilterSums<F> result(at);
+    FilterSums<F> sums{load_light<F>(at, 0), F(1)};
     const F normal_weight = F(settings.normal_weight);
     // q^(r r) for r = 1, 2, ...: each is the one before times the next odd power of q.
     F gauss = centre.gauss;
     const F gauss_square = centre.gauss * centre.gauss;
     F gauss_step = gauss_square * centre.gauss;
     for (int r = 1; r <= settings.radius; ++r) {
-        const auto counts = centre.reach >= F(static_cast<float>(r));
+        const F distance = F(static_cast<float>(r));
+        const auto counts = centre.reach >= distance;
         if (simd::none(counts)) break;
         const F weight = simd::select(counts, gauss, F(0));
-        const F plane_scale = centre.plane_scale * F(1.0f / static_cast<float>(r));
-        for (const int tap : {-r, r}) {
-            if (tap < -taps.before || tap > taps.after) continue;
-            const std::ptrdiff_t offset = tap * taps.step;
-            const F geometry =
-                geometry_weight(centre, at.guide<F>(offset), F(static_cast<float>(tap)),
-                                plane_scale, normal_weight);
-            result.add(at, offset, weight * geometry);
-        }
+        const F minus_scale = centre.minus_scale * F(1.0f / static_cast<float>(r));
+        const std::ptrdiff_t offset = r * taps.step;
+        if (r <= taps.before)
+            add_tap(sums, at, -offset,
+                    weight * geometry_weight(centre, load_guide<F>(at, -offset), -distance,
+                                             minus_scale, normal_weight));
+        if (r <= taps.after)
+            add_tap(sums, at, offset,
+                    weight * geometry_weight(centre, load_guide<F>(at, offset), distance,
+                                             minus_scale, normal_weight));
         gauss *= gauss_step;
         gauss_step *= gauss_square;
     }
-    return result;
+    return sums;
 }
 
-// A channel of S_N and U_N.
+// One channel of S_N and U_N: the means, or what was before if they differ from it by less than the
+// sums' rounding error.
 template <class F>
-struct ChannelPair {
-    F shadowed, unshadowed_samples;
-};
-
-// The filtered pair, or the pair before if the change is within the sums' rounding error.
-template <class F>
-ChannelPair<F> filtered_channel(const ChannelPair<F>& before, const ChannelPair<F>& sums,
-                                F inverse_weights) {
-    const F s = sums.shadowed * inverse_weights;
-    const F u = sums.unshadowed_samples * inverse_weights;
+void filter_channel(F& shadowed, F& unshadowed_samples, F shadowed_sum, F unshadowed_sum,
+                    F inverse_weights) {
+    const F s = shadowed_sum * inverse_weights;
+    const F u = unshadowed_sum * inverse_weights;
     constexpr float kRounding = 0x1p-18f;  // > (taps of the sum + taps of the weights + 2) / 2^24
-    const auto is_same =
-        (simd::abs(s - before.shadowed) <= before.shadowed * F(kRounding)) &
-        (simd::abs(u - before.unshadowed_samples) <= before.unshadowed_samples * F(kRounding));
-    return {simd::select(is_same, before.shadowed, s),
-            simd::select(is_same, before.unshadowed_samples, u)};
+    const auto changes = (simd::abs(s - shadowed) > shadowed * F(kRounding)) |
+                         (simd::abs(u - unshadowed_samples) > unshadowed_samples * F(kRounding));
+    shadowed = simd::select(changes, s, shadowed);
+    unshadowed_samples = simd::select(changes, u, unshadowed_samples);
+}
+
+// The filtered S_N and U_N of a pixel whose Gaussian has this radius.
+template <class F>
+Light<F> filtered_light(const FilterSources& at, const FilterTaps& taps, F radius,
+                        const FilterCentre<F>& centre, const FilterSettings& settings) {
+    const FilterSums<F> sums = filter_sums(at, taps, centre, settings);
+    const F inverse_weights = F(1) / sums.weights;
+    const Light<F> before = load_light<F>(at, 0);
+    Vec3<F> s = before.shadowed;
+    Vec3<F> u = before.unshadowed_samples;
+    const Light<F>& sum = sums.light;
+    filter_channel(s.x, u.x, sum.shadowed.x, sum.unshadowed_samples.x, inverse_weights);
+    filter_channel(s.y, u.y, sum.shadowed.y, sum.unshadowed_samples.y, inverse_weights);
+    filter_channel(s.z, u.z, sum.shadowed.z, sum.unshadowed_samples.z, inverse_weights);
+    const auto is_filtered = radius > F(0);
+    return {penumbra::select(is_filtered, s, before.shadowed),
+            penumbra::select(is_filtered, u, before.unshadowed_samples)};
 }
 
 }  // namespace penumbra::denoise

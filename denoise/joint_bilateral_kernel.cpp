@@ -6,14 +6,11 @@
 namespace penumbra::PENUMBRA_ISA {
 namespace {
 
-using denoise::ChannelPair;
 using denoise::ColumnFilter;
 using denoise::FilterSources;
 using denoise::FilterTaps;
 using denoise::kBlock;
 using denoise::RowFilter;
-
-using Sums = F[FilterSources::kSums];
 
 // The direction through the centres of the pixels from element (x, y) on.
 Vec3<F> direction(const denoise::FilterGuides& guides, const PixelRect& window, int x, int y) {
@@ -21,24 +18,21 @@ Vec3<F> direction(const denoise::FilterGuides& guides, const PixelRect& window, 
     return guides.camera.direction(column, F(static_cast<float>(y + window.y0) + 0.5f));
 }
 
-// Filters the pixels at `at`; those of radius 0 come out unchanged.
-void filter_pixels(const FilterSources& at, const FilterTaps& taps, F radius,
-                   const Vec3<F>& view_direction, const Vec3f& step,
-                   const denoise::FilterSettings& settings, Sums& result) {
-    const auto centre =
-        denoise::filter_centre(at.guide<F>(0), radius, view_direction, step, settings);
-    const auto sums = denoise::filter_sums(at, taps, centre, settings);
-    const F inverse_weights = F(1) / sums.weights;
-    const M is_filtered = radius > F(0);
-    for (int channel = 0; channel < 3; ++channel) {
-        const ChannelPair<F> before{simd::load<F>(at.sums[channel]),
-                                    simd::load<F>(at.sums[channel + 3])};
-        const auto after = denoise::filtered_channel<F>(
-            before, {sums.sums[channel], sums.sums[channel + 3]}, inverse_weights);
-        result[channel] = simd::select(is_filtered, after.shadowed, before.shadowed);
-        result[channel + 3] =
-            simd::select(is_filtered, after.unshadowed_samples, before.unshadowed_samples);
-    }
+using Light = denoise::Light<F>;
+
+// S_N and U_N of the pixels at `at`; those of radius 0 come out unchanged.
+Light filter_pixels(const FilterSources& at, const FilterTaps& taps, F radius,
+                    const Vec3<F>& view_direction, const Vec3f& step,
+                    const denoise::FilterSettings& settings) {
+    const auto centre = denoise::filter_centre(denoise::load_guide<F>(at, 0), radius,
+                                               view_direction, step, settings);
+    return denoise::filtered_light(at, taps, radius, centre, settings);
+}
+
+void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& value) {
+    simd::store(planes[0].row(y) + x, value.x);
+    simd::store(planes[1].row(y) + x, value.y);
+    simd::store(planes[2].row(y) + x, value.z);
 }
 
 // ---- along rows ------------------------------------------------------------------------------
@@ -92,8 +86,11 @@ void copy_block(const RowFilter& filter, int block, int blocks, int y) {
 FilterSources row_sources(const RowFilter& filter, int x) {
     FilterSources at;
     at.depth = scratch_row(filter, 0) + x;
-    for (int i = 0; i < 3; ++i) at.normal[i] = scratch_row(filter, 1 + i) + x;
-    for (int i = 0; i < FilterSources::kSums; ++i) at.sums[i] = scratch_row(filter, 4 + i) + x;
+    for (int i = 0; i < 3; ++i) {
+        at.normal[i] = scratch_row(filter, 1 + i) + x;
+        at.shadowed[i] = scratch_row(filter, 4 + i) + x;
+        at.unshadowed_samples[i] = scratch_row(filter, 7 + i) + x;
+    }
     return at;
 }
 
@@ -103,14 +100,11 @@ void filter_block(const RowFilter& filter, int block, int y) {
     for (int x = block * kBlock; x < (block + 1) * kBlock; x += kLanes) {
         const F radius = row_radius(filter, x, y);
         if (simd::none(radius > F(0))) continue;
-        Sums result;
-        filter_pixels(row_sources(filter, x), taps, radius,
-                      direction(pass.guides, pass.frame.window, x, y), filter.step, pass.settings,
-                      result);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            simd::store(pass.shadowed[channel].row(y) + x, result[channel]);
-            simd::store(pass.unshadowed_samples[channel].row(y) + x, result[channel + 3]);
-        }
+        const Light light = filter_pixels(row_sources(filter, x), taps, radius,
+                                          direction(pass.guides, pass.frame.window, x, y),
+                                          filter.step, pass.settings);
+        store3(pass.shadowed, x, y, light.shadowed);
+        store3(pass.unshadowed_samples, x, y, light.unshadowed_samples);
     }
 }
 
@@ -141,27 +135,31 @@ FilterSources column_sources(const denoise::VerticalFilterPass& pass, int x, int
     at.depth = pass.guides.depth.row(y) + x;
     for (std::size_t i = 0; i < 3; ++i) {
         at.normal[i] = pass.guides.normal[i].row(y) + x;
-        at.sums[i] = pass.sums.shadowed[i].row(y) + x;
-        at.sums[i + 3] = pass.sums.unshadowed_samples[i].row(y) + x;
+        at.shadowed[i] = pass.sums.shadowed[i].row(y) + x;
+        at.unshadowed_samples[i] = pass.sums.unshadowed_samples[i].row(y) + x;
     }
     return at;
 }
 
-void store_if(const PlaneView<float>& plane, int x, int y, F value) {
-    if (plane) simd::store(plane.row(y) + x, value);
+void combine_channel(const denoise::VerticalFilterPass& pass, std::size_t channel, int x, int y,
+                     F ratio) {
+    const F emission = simd::load<F>(pass.sums.emission[channel].row(y) + x);
+    const F unshadowed = simd::load<F>(pass.sums.unshadowed[channel].row(y) + x);
+    simd::store(pass.outputs.beauty[channel].row(y) + x,
+                denoise::combined_radiance(emission, unshadowed, ratio));
 }
 
-void write_outputs(const denoise::VerticalFilterPass& pass, int x, int y, const Sums& sums) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        const F ratio = denoise::shadow_ratio(sums[channel], sums[channel + 3]);
-        const F emission = simd::load<F>(pass.sums.emission[channel].row(y) + x);
-        const F unshadowed = simd::load<F>(pass.sums.unshadowed[channel].row(y) + x);
-        simd::store(pass.outputs.beauty[channel].row(y) + x,
-                    denoise::combined_radiance(emission, unshadowed, ratio));
-        store_if(pass.outputs.ratio[channel], x, y, ratio);
-        store_if(pass.shadowed[channel], x, y, sums[channel]);
-        store_if(pass.unshadowed_samples[channel], x, y, sums[channel + 3]);
-    }
+void write_outputs(const denoise::VerticalFilterPass& pass, int x, int y, const Light& light) {
+    const Vec3<F>& s = light.shadowed;
+    const Vec3<F>& u = light.unshadowed_samples;
+    const Vec3<F> ratio{denoise::shadow_ratio(s.x, u.x), denoise::shadow_ratio(s.y, u.y),
+                        denoise::shadow_ratio(s.z, u.z)};
+    combine_channel(pass, 0, x, y, ratio.x);
+    combine_channel(pass, 1, x, y, ratio.y);
+    combine_channel(pass, 2, x, y, ratio.z);
+    if (pass.outputs.ratio[0]) store3(pass.outputs.ratio, x, y, ratio);
+    if (pass.shadowed[0]) store3(pass.shadowed, x, y, s);
+    if (pass.unshadowed_samples[0]) store3(pass.unshadowed_samples, x, y, u);
 }
 
 void filter_and_combine(const ColumnFilter& filter, int x, int y) {
@@ -169,16 +167,15 @@ void filter_and_combine(const ColumnFilter& filter, int x, int y) {
     const FilterSources at = column_sources(pass, x, y);
     const F radius = denoise::gaussian_radius(simd::load<F>(pass.guides.noise.row(y) + x),
                                               simd::load<F>(at.depth), pass.settings);
-    Sums result;
-    if (simd::any(radius > F(0))) {
-        const FilterTaps taps{y - filter.existing.y0, filter.existing.y1 - 1 - y,
-                              pass.guides.depth.stride};
-        filter_pixels(at, taps, radius, direction(pass.guides, pass.frame.window, x, y),
-                      filter.step, pass.settings, result);
-    } else {
-        for (int i = 0; i < FilterSources::kSums; ++i) result[i] = simd::load<F>(at.sums[i]);
+    if (simd::none(radius > F(0))) {
+        write_outputs(pass, x, y, denoise::load_light<F>(at, 0));
+        return;
     }
-    write_outputs(pass, x, y, result);
+    const FilterTaps taps{y - filter.existing.y0, filter.existing.y1 - 1 - y,
+                          pass.guides.depth.stride};
+    write_outputs(pass, x, y,
+                  filter_pixels(at, taps, radius, direction(pass.guides, pass.frame.window, x, y),
+                                filter.step, pass.settings));
 }
 
 }  // namespace
