@@ -47,10 +47,12 @@ struct Block {
     block.normal = load_vector(surface.normal, block.x, y);
     block.seen = see_polygon(kernel.shape, block.position, block.normal);
     block.seen.lit &= hit;
-    if (simd::none(block.seen.lit)) return false;
+    return simd::any(block.seen.lit);
+}
+
+[[gnu::flatten]] void measure_light(const RayKernelInputs& kernel, Block& block) {
     block.sampler = make_polygon_sampler(kernel.shape, block.seen);
     block.lit = block.seen.lit & (block.sampler.solid_angle > F(0));
-    return true;
 }
 
 Vec2<F> random_numbers(const RayKernelInputs& kernel, int x, int y) {
@@ -133,6 +135,7 @@ std::uint64_t generate_row(const RayKernelInputs& kernel, int y, shadow::RayScra
         blocks[count].x = x;
         if (see_light(kernel, y, blocks[count])) ++count;
     }
+    for (int i = 0; i < count; ++i) measure_light(kernel, blocks[i]);
     for (int i = 0; i < count; ++i)
         kernel.from_brdf ? choose_by_brdf(kernel, y, blocks[i])
                          : choose_by_light(kernel, y, blocks[i]);
