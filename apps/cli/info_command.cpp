@@ -13,7 +13,9 @@
 namespace penumbra::cli {
 namespace {
 
-void print_row(std::string_view key, const std::string& value) { fmt::print("{:<12} {}\n", key, value); }
+void print_row(std::string_view key, const std::string& value) {
+    fmt::print("{:<12} {}\n", key, value);
+}
 
 std::string to_text(const image::Window& w) {
     return fmt::format("{} x {} at ({}, {})", w.width(), w.height(), w.x0, w.y0);
@@ -26,7 +28,8 @@ std::string to_text(const image::ExrValue& value) {
         std::string operator()(float f) const { return fmt::format("{}", f); }
         std::string operator()(const image::ExrMatrix& m) const {
             std::string text;
-            for (std::size_t i = 0; i < 16; ++i) text += fmt::format("{}{}", i == 0 ? "" : " ", m.values[i]);
+            for (std::size_t i = 0; i < 16; ++i)
+                text += fmt::format("{}{}", i == 0 ? "" : " ", m.values[i]);
             return text;
         }
         std::string operator()(const image::ExrRational& r) const {
@@ -39,19 +42,18 @@ std::string to_text(const image::ExrValue& value) {
 void print_exr(const std::string& path) {
     const image::ExrHeader header = image::read_exr_header(path);
     print_row("file", path);
-    print_row("state", header.is_complete()
-                           ? "complete"
-                           : fmt::format("incomplete: {} of {} blocks are missing", header.missing_chunks,
-                                         header.chunks));
+    print_row("state", header.is_complete() ? "complete"
+                                            : fmt::format("incomplete: {} of {} blocks are missing",
+                                                          header.missing_chunks, header.chunks));
     print_row("display", to_text(header.display));
     print_row("data", to_text(header.data));
-    print_row("layout", fmt::format("{}, {}{}, {} part{}", header.compression,
-                                    header.is_tiled ? "tiles" : "scan lines", header.is_deep ? ", deep" : "",
-                                    header.parts, header.parts == 1 ? "" : "s"));
+    print_row("layout",
+              fmt::format("{}, {}{}, {} part{}", header.compression,
+                          header.is_tiled ? "tiles" : "scan lines", header.is_deep ? ", deep" : "",
+                          header.parts, header.parts == 1 ? "" : "s"));
     for (const image::ExrChannelInfo& channel : header.channels)
         print_row("channel", fmt::format("{} {}", channel.name, image::name(channel.type)));
-    for (const auto& [key, value] : header.metadata)
-        fmt::print("{:<12} {}\n", key, to_text(value));
+    for (const auto& [key, value] : header.metadata) fmt::print("{:<12} {}\n", key, to_text(value));
 }
 
 void print_scene(const std::string& path) {
@@ -66,8 +68,9 @@ void print_scene(const std::string& path) {
                                     scene.animation.last_frame, scene.animation.frames_per_second));
     for (const Model& model : scene.models) {
         const Mesh& mesh = scene.meshes[model.mesh];
-        print_row("model", fmt::format("{}: {} triangles, {} vertices{}", model.name, mesh.triangles.size(),
-                                       mesh.positions.size(), model.transform.moves() ? ", moves" : ""));
+        print_row("model",
+                  fmt::format("{}: {} triangles, {} vertices{}", model.name, mesh.triangles.size(),
+                              mesh.positions.size(), model.transform.moves() ? ", moves" : ""));
     }
     print_row("triangles", fmt::format("{} ({} degenerate ones dropped)", triangles, dropped));
     print_row("materials", fmt::format("{}", scene.materials.size()));
@@ -75,8 +78,9 @@ void print_scene(const std::string& path) {
         print_row("texture", fmt::format("{}: {} x {}", texture.name, texture.levels[0].width,
                                          texture.levels[0].height));
     for (const Light& light : scene.lights)
-        print_row("light", fmt::format("{}: {}{}", light.name, light.polygon.is_rect() ? "rect" : "polygon",
-                                       light.two_sided ? ", two-sided" : ""));
+        print_row("light",
+                  fmt::format("{}: {}{}", light.name, light.polygon.is_rect() ? "rect" : "polygon",
+                              light.two_sided ? ", two-sided" : ""));
     print_row("emitters", fmt::format("{} (emissive faces of models)", scene.emitters.size()));
     for (const std::string& warning : scene.warnings) print_row("warning", warning);
 }
@@ -86,7 +90,8 @@ bool is_exr(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     unsigned char magic[4] = {};
     file.read(reinterpret_cast<char*>(magic), sizeof magic);
-    return file.gcount() == 4 && magic[0] == 0x76 && magic[1] == 0x2f && magic[2] == 0x31 && magic[3] == 0x01;
+    return file.gcount() == 4 && magic[0] == 0x76 && magic[1] == 0x2f && magic[2] == 0x31 &&
+           magic[3] == 0x01;
 }
 
 }  // namespace

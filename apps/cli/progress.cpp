@@ -16,9 +16,12 @@ using renderer::FrameReport;
 
 std::string_view name(FrameOutcome outcome) {
     switch (outcome) {
-        case FrameOutcome::kRendered: return "rendered";
-        case FrameOutcome::kSkipped: return "skipped";
-        case FrameOutcome::kFailed: return "failed";
+        case FrameOutcome::kRendered:
+            return "rendered";
+        case FrameOutcome::kSkipped:
+            return "skipped";
+        case FrameOutcome::kFailed:
+            return "failed";
     }
     return "";
 }
@@ -55,9 +58,8 @@ void Progress::State::plain(const FrameReport& frame) const {
         frame.outcome == FrameOutcome::kRendered
             ? fmt::format("{:.0f} ms, {:.1f} Mrays", render_ms, 1e-6 * frame.statistics.shadow_rays)
             : std::string(name(frame.outcome));
-    const std::string line =
-        fmt::format("frame {} ({}/{}): {}, ETA {}", frame.frame, done, frame_count, what,
-                    duration(remaining_seconds()));
+    const std::string line = fmt::format("frame {} ({}/{}): {}, ETA {}", frame.frame, done,
+                                         frame_count, what, duration(remaining_seconds()));
     if (rewrites_line)
         fmt::print("\r\x1b[K{}{}", line, done == frame_count ? "\n" : "");
     else
@@ -82,10 +84,10 @@ void Progress::State::openjd(const FrameReport& frame) const {
 }
 
 Progress::Progress(ProgressStyle style, int frame_count)
-    : state_(std::make_unique<State>(State{.style = style,
-                                           .rewrites_line = style == ProgressStyle::kAuto &&
-                                                            isatty(STDOUT_FILENO) != 0,
-                                           .frame_count = frame_count})) {}
+    : state_(std::make_unique<State>(
+          State{.style = style,
+                .rewrites_line = style == ProgressStyle::kAuto && isatty(STDOUT_FILENO) != 0,
+                .frame_count = frame_count})) {}
 
 Progress::~Progress() = default;
 
@@ -94,10 +96,17 @@ void Progress::report(const FrameReport& frame) {
     if (frame.outcome == FrameOutcome::kRendered) ++state_->rendered;
     switch (state_->style) {
         case ProgressStyle::kAuto:
-        case ProgressStyle::kPlain: state_->plain(frame); break;
-        case ProgressStyle::kJson: state_->json(frame); break;
-        case ProgressStyle::kOpenJd: state_->openjd(frame); break;
-        case ProgressStyle::kNone: return;
+        case ProgressStyle::kPlain:
+            state_->plain(frame);
+            break;
+        case ProgressStyle::kJson:
+            state_->json(frame);
+            break;
+        case ProgressStyle::kOpenJd:
+            state_->openjd(frame);
+            break;
+        case ProgressStyle::kNone:
+            return;
     }
     std::fflush(stdout);
 }

@@ -8,10 +8,10 @@
 namespace penumbra::cli {
 
 enum class ProgressStyle {
-    kAuto,   // a status line with ETA on a terminal, else a line per frame
-    kPlain,  // a line per frame
-    kJson,   // a JSON object per line and frame
-    kOpenJd, // openjd_progress and openjd_status lines for render farms
+    kAuto,    // a status line with ETA on a terminal, else a line per frame
+    kPlain,   // a line per frame
+    kJson,    // a JSON object per line and frame
+    kOpenJd,  // openjd_progress and openjd_status lines for render farms
     kNone,
 };
 

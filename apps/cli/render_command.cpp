@@ -23,7 +23,8 @@ constexpr int kSomeFramesFailed = 3;
 std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
     if (!options.frames.empty()) return renderer::parse_frame_list(options.frames);
     std::vector<int> frames;
-    for (int f = scene.animation.first_frame; f <= scene.animation.last_frame; ++f) frames.push_back(f);
+    for (int f = scene.animation.first_frame; f <= scene.animation.last_frame; ++f)
+        frames.push_back(f);
     return frames;
 }
 
@@ -33,10 +34,11 @@ std::string default_pattern(const RenderOptions& options, std::size_t frame_coun
     return stem + (frame_count > 1 ? ".####.exr" : ".exr");
 }
 
-void require_file_per_frame(const char* option, const std::string& pattern, std::size_t frame_count) {
+void require_file_per_frame(const char* option, const std::string& pattern,
+                            std::size_t frame_count) {
     if (frame_count > 1 && !renderer::has_frame_number(pattern))
-        throw InputError(fmt::format("{}: {} frames need '####' in the file name, got \"{}\"", option,
-                                     frame_count, pattern));
+        throw InputError(fmt::format("{}: {} frames need '####' in the file name, got \"{}\"",
+                                     option, frame_count, pattern));
 }
 
 void say_what_would_happen(const RenderOptions& options, const std::vector<int>& frames) {
@@ -61,9 +63,11 @@ int render(RenderOptions& options) {
         options.scene.empty() ? renderer::read_builtin_scene() : read_scene(options.scene);
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
     const std::vector<int> frames = frames_of(options, scene);
-    if (options.output.pattern.empty()) options.output.pattern = default_pattern(options, frames.size());
+    if (options.output.pattern.empty())
+        options.output.pattern = default_pattern(options, frames.size());
     require_file_per_frame("--output", options.output.pattern, frames.size());
-    if (options.output.preview) require_file_per_frame("--preview", *options.output.preview, frames.size());
+    if (options.output.preview)
+        require_file_per_frame("--preview", *options.output.preview, frames.size());
     renderer::check_settings(scene, options.image, options.execution);
     if (options.dry_run) {
         say_what_would_happen(options, frames);

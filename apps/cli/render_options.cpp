@@ -22,15 +22,18 @@ const Words<renderer::Method> kMethods = {{"ratio", renderer::Method::kRatio},
                                           {"unshadowed", renderer::Method::kUnshadowed}};
 const Words<renderer::Denoise> kDenoisers = {{"noise-driven", renderer::Denoise::kNoiseDriven},
                                              {"none", renderer::Denoise::kNone}};
+const Words<denoise::LineRule> kLineRules = {{"maximum", denoise::LineRule::kMaximum},
+                                             {"mean", denoise::LineRule::kMean}};
 const Words<ExrCompression> kCompressions = {
-    {"zip", ExrCompression::kZip}, {"zips", ExrCompression::kZips}, {"piz", ExrCompression::kPiz},
-    {"rle", ExrCompression::kRle}, {"dwaa", ExrCompression::kDwaa}, {"none", ExrCompression::kNone}};
+    {"zip", ExrCompression::kZip},   {"zips", ExrCompression::kZips},
+    {"piz", ExrCompression::kPiz},   {"rle", ExrCompression::kRle},
+    {"dwaa", ExrCompression::kDwaa}, {"none", ExrCompression::kNone}};
 const Words<bool> kPrecisions = {{"half", false}, {"float", true}};
 const Words<std::optional<simd::Isa>> kIsas = {
     {"auto", std::nullopt}, {"avx2", simd::Isa::kAvx2}, {"avx512", simd::Isa::kAvx512}};
 const Words<shadow::TraceIsa> kTraceIsas = {{"avx2", shadow::TraceIsa::kAvx2},
-                                              {"avx512", shadow::TraceIsa::kAvx512},
-                                              {"auto", shadow::TraceIsa::kAuto}};
+                                            {"avx512", shadow::TraceIsa::kAvx512},
+                                            {"auto", shadow::TraceIsa::kAuto}};
 const Words<ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::kAuto},
                                               {"plain", ProgressStyle::kPlain},
                                               {"json", ProgressStyle::kJson},
@@ -55,7 +58,9 @@ T meaning(const Words<T>& words, const std::string& spelling) {
 template <class T>
 void add_words(CLI::App& command, const char* option, std::string& target, const Words<T>& words,
                const char* help) {
-    command.add_option(option, target, help)->check(CLI::IsMember(spellings(words)))->capture_default_str();
+    command.add_option(option, target, help)
+        ->check(CLI::IsMember(spellings(words)))
+        ->capture_default_str();
 }
 
 // `count` integers with one separator between each two; empty if the text is anything else.
@@ -82,25 +87,55 @@ void declare_what(CLI::App& command, RenderOptions& o) {
     command.add_option("-f,--frames", o.frames,
                        "Frames: 1-48, 1-100x2, 5,9,20-30 [the scene's range]");
     command.add_option("--size", o.size, "Picture size WIDTHxHEIGHT in pixels [the scene's]");
-    command.add_option("--crop", o.crop,
-                       "X0,Y0,X1,Y1: render only this part, half-open from the top left; the pixels "
-                       "are those of the whole picture");
+    command.add_option(
+        "--crop", o.crop,
+        "X0,Y0,X1,Y1: render only this part, half-open from the top left; the pixels "
+        "are those of the whole picture");
+}
+
+// The constants of the noise estimate and the filter; docs/methods.md says what they do.
+void declare_filter(CLI::App& command, RenderOptions& o) {
+    denoise::NoiseSettings& noise = o.image.noise;
+    denoise::FilterSettings& filter = o.image.filter;
+    add_words(command, "--noise-rule", o.noise_rule, kLineRules,
+              "How the variations of the shadow along lines through a pixel become one number");
+    const auto number = [&](const char* option, auto& target, double low, double high,
+                            const char* help) {
+        command.add_option(option, target, help)
+            ->check(CLI::Range(low, high))
+            ->capture_default_str();
+    };
+    number("--noise-radius", noise.radius, 2, denoise::kMaxLineRadius, "Of those lines, in pixels");
+    number("--noise-full", noise.full_noise, 1e-3, 1e3,
+           "Root of the mean variation that counts as full noise");
+    number("--filter-radius", filter.radius, 1, denoise::kMaxFilterRadius,
+           "Of the filter at full noise, in pixels");
+    number("--filter-gain", filter.radius_per_noise, 0, 1e3,
+           "Share of that radius per unit of noise");
+    number("--filter-normal-weight", filter.normal_weight, 0, 1e3,
+           "How much other normals are kept out");
+    number("--filter-plane-weight", filter.plane_weight, 0, 1e3,
+           "How much other planes are kept out");
 }
 
 void declare_how(CLI::App& command, RenderOptions& o) {
-    add_words(command, "--method", o.method, kMethods,
-              "ratio: analytic light times the estimated shadow; stochastic: plain Monte Carlo with "
-              "the same rays; unshadowed: the analytic light alone");
-    command.add_option("--spp", o.image.samples_per_pixel,
-                       "Shadow rays per light and pixel, 1 to 64 [the scene's, else 1]")
+    add_words(
+        command, "--method", o.method, kMethods,
+        "ratio: analytic light times the estimated shadow; stochastic: plain Monte Carlo with "
+        "the same rays; unshadowed: the analytic light alone");
+    command
+        .add_option("--spp", o.image.samples_per_pixel,
+                    "Shadow rays per light and pixel, 1 to 64 [the scene's, else 1]")
         ->check(CLI::Range(1, 64));
     command.add_option("--aa", o.image.passes, "Jittered passes per frame, 1 to 256")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     add_words(command, "--denoise", o.denoise, kDenoisers, "How the shadow is filtered");
-    command.add_option("--light-tolerance", o.image.light_tolerance,
-                       "Lights whose bounds add up to at most this share of the others' are left out "
-                       "per tile; 0 leaves out none")
+    declare_filter(command, o);
+    command
+        .add_option("--light-tolerance", o.image.light_tolerance,
+                    "Lights whose bounds add up to at most this share of the others' are left out "
+                    "per tile; 0 leaves out none")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     command.add_option("--seed", o.image.seed, "Seed of the random numbers")->capture_default_str();
@@ -108,26 +143,31 @@ void declare_how(CLI::App& command, RenderOptions& o) {
 
 void declare_output(CLI::App& command, RenderOptions& o) {
     std::string names = "What to write, of: all";
-    for (const renderer::AovInfo& aov : renderer::aov_table()) names += fmt::format(", {}", aov.name);
+    for (const renderer::AovInfo& aov : renderer::aov_table())
+        names += fmt::format(", {}", aov.name);
     command.add_option("--aov", o.aovs, names)->capture_default_str();
     add_words(command, "--compression", o.compression, kCompressions, "Of the EXR files");
     add_words(command, "--precision", o.precision, kPrecisions,
               "Of the channels that are half by default");
-    command.add_flag("--resume", o.output.resume,
-                     "Skip frames whose file is complete and was made from the same scene and settings");
-    command.add_option("--preview", o.preview, "Tone-mapped PNG beside each frame, a pattern like --output's");
+    command.add_flag(
+        "--resume", o.output.resume,
+        "Skip frames whose file is complete and was made from the same scene and settings");
+    command.add_option("--preview", o.preview,
+                       "Tone-mapped PNG beside each frame, a pattern like --output's");
     command.add_option("--exposure", o.output.exposure, "Of the previews, in EV")
         ->check(CLI::Range(-100.0, 100.0))
         ->capture_default_str();
-    command.add_option("--stats", o.statistics, "Write times and counts per frame to this JSON file");
+    command.add_option("--stats", o.statistics,
+                       "Write times and counts per frame to this JSON file");
     add_words(command, "--progress", o.progress, kProgressStyles,
               "auto: a line with ETA on a terminal, else a line per frame");
     command.add_flag("--dry-run", o.dry_run, "Check everything and say what would be rendered");
 }
 
 void declare_execution(CLI::App& command, RenderOptions& o) {
-    command.add_option("--threads", o.execution.threads,
-                       "Threads; changes no pixel [what affinity, cgroup quota and Slurm allow]")
+    command
+        .add_option("--threads", o.execution.threads,
+                    "Threads; changes no pixel [what affinity, cgroup quota and Slurm allow]")
         ->check(CLI::Range(1, 1024));
     add_words(command, "--isa", o.isa, kIsas, "Instruction set of the kernels; changes no pixel");
     add_words(command, "--trace-isa", o.trace_isa, kTraceIsas,
@@ -147,7 +187,8 @@ void interpret(RenderOptions& o) {
     constexpr int kLargestSide = 32767;  // the rasterizer's guard band
     if (!o.size.empty()) {
         const std::vector<int> size = integers(o.size, 'x', 2);
-        if (size.empty() || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide || size[1] > kLargestSide)
+        if (size.empty() || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide ||
+            size[1] > kLargestSide)
             throw InputError(fmt::format("--size: expected WIDTHxHEIGHT, each 1 to {}, got \"{}\"",
                                          kLargestSide, o.size));
         o.image.width = size[0];
@@ -162,6 +203,7 @@ void interpret(RenderOptions& o) {
     }
     o.image.method = meaning(kMethods, o.method);
     o.image.denoise = meaning(kDenoisers, o.denoise);
+    o.image.noise.rule = meaning(kLineRules, o.noise_rule);
     o.output.aovs = renderer::parse_aov_list(o.aovs);
     o.output.compression = meaning(kCompressions, o.compression);
     o.output.float_precision = meaning(kPrecisions, o.precision);

@@ -1,7 +1,7 @@
 #include "apps/cli/signals.h"
 
-#include <csignal>
 #include <unistd.h>
+#include <csignal>
 
 namespace penumbra::cli {
 namespace {
@@ -27,6 +27,8 @@ const std::atomic<bool>& catch_interrupts() {
     return interrupted;
 }
 
-int interrupt_exit_code() { return received_signal == 0 ? 0 : 128 + received_signal; }
+int interrupt_exit_code() {
+    return received_signal == 0 ? 0 : 128 + received_signal;
+}
 
 }  // namespace penumbra::cli

@@ -26,12 +26,15 @@ ordered_json passes(const renderer::FrameStatistics& statistics) {
 ordered_json frame_entry(const renderer::FrameReport& frame) {
     ordered_json entry = {{"frame", frame.frame}, {"path", frame.path}};
     switch (frame.outcome) {
-        case renderer::FrameOutcome::kSkipped: entry["outcome"] = "skipped"; return entry;
+        case renderer::FrameOutcome::kSkipped:
+            entry["outcome"] = "skipped";
+            return entry;
         case renderer::FrameOutcome::kFailed:
             entry["outcome"] = "failed";
             entry["error"] = frame.error;
             return entry;
-        case renderer::FrameOutcome::kRendered: entry["outcome"] = "rendered";
+        case renderer::FrameOutcome::kRendered:
+            entry["outcome"] = "rendered";
     }
     const renderer::FrameStatistics& s = frame.statistics;
     entry["render_seconds"] = s.render_seconds;
@@ -64,9 +67,10 @@ void write_statistics(const std::string& path, const Scene& scene, const RenderO
                          {"dropped_triangles", dropped},
                          {"warnings", scene.warnings},
                          {"frames", ordered_json::array()}};
-    for (const renderer::FrameReport& frame : report.frames) root["frames"].push_back(frame_entry(frame));
-    image::write_file_atomically(path,
-                                 root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    for (const renderer::FrameReport& frame : report.frames)
+        root["frames"].push_back(frame_entry(frame));
+    image::write_file_atomically(
+        path, root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace penumbra::cli

@@ -9,22 +9,22 @@ namespace penumbra::renderer {
 
 // What a frame's file can hold beside the picture.
 enum class Aov {
-    kBeauty,     // emission + sum U * W, with coverage as alpha
-    kU,          // analytic unshadowed radiance
-    kS,          // S_N after the filter, per sample
-    kUn,         // U_N after the filter, per sample
-    kW,          // the shadow: S / U_N
-    kE,          // noise estimate
-    kEmission,   // radiance seen directly: emissive surfaces, visible lights, background
-    kAlbedo,     // base colour
+    kBeauty,    // emission + sum U * W, with coverage as alpha
+    kU,         // analytic unshadowed radiance
+    kS,         // S_N after the filter, per sample
+    kUn,        // U_N after the filter, per sample
+    kW,         // the shadow: S / U_N
+    kE,         // noise estimate
+    kEmission,  // radiance seen directly: emissive surfaces, visible lights, background
+    kAlbedo,    // base colour
     kRoughness,
     kMetallic,
-    kN,          // shading normal, world, towards the viewer
-    kNg,         // geometric normal, likewise
-    kP,          // world position
-    kZ,          // distance along the view axis
-    kMotion,     // pixel now - pixel in the previous frame
-    kId,         // instance, triangle, material
+    kN,       // shading normal, world, towards the viewer
+    kNg,      // geometric normal, likewise
+    kP,       // world position
+    kZ,       // distance along the view axis
+    kMotion,  // pixel now - pixel in the previous frame
+    kId,      // instance, triangle, material
 };
 
 enum class SampleType { kHalf, kFloat, kUint };  // half becomes float with --precision float
@@ -49,7 +49,9 @@ class AovSet {
         for (const Aov aov : aovs) insert(aov);
     }
     void insert(Aov aov) { bits_ |= 1u << static_cast<unsigned>(aov); }
-    [[nodiscard]] bool contains(Aov aov) const { return (bits_ >> static_cast<unsigned>(aov) & 1) != 0; }
+    [[nodiscard]] bool contains(Aov aov) const {
+        return (bits_ >> static_cast<unsigned>(aov) & 1) != 0;
+    }
     friend bool operator==(AovSet, AovSet) = default;
 
   private:

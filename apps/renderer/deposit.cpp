@@ -3,7 +3,8 @@
 namespace penumbra::renderer {
 namespace {
 
-// One tile's place on the film. Loops run over whole rows of a tile: planes are padded to whole tiles.
+// One tile's place on the film. Loops run over whole rows of a tile: planes are padded to whole
+// tiles.
 class Place {
   public:
     Place(const Tile& tile, int pass, const Film& film)
@@ -35,7 +36,8 @@ class Place {
         each_row(to, [&](int y, float* row) {
             const float* p = a.row(y);
             const float* q = b.row(y);
-            for (int x = 0; x < kTileSize; ++x) row[x] = (is_first_ ? 0.0f : row[x]) + (p[x] + q[x]);
+            for (int x = 0; x < kTileSize; ++x)
+                row[x] = (is_first_ ? 0.0f : row[x]) + (p[x] + q[x]);
         });
     }
     // 1 where something is hit; a visible light has a depth, but no id.
@@ -67,8 +69,8 @@ void scale(Plane<float>& plane, float factor, int y0, int y1) {
 
 }  // namespace
 
-void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLightSumsView& sums, int pass,
-             Film& film) {
+void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLightSumsView& sums,
+             int pass, Film& film) {
     const Place place(tile, pass, film);
     for (std::size_t i = 0; i < 3; ++i)
         place.sum_of(sums.unshadowed_diffuse[i], sums.unshadowed_glossy[i], film.unshadowed[i]);
@@ -93,8 +95,8 @@ void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLight
 
 void scale_to_means(int passes, int y0, int y1, Film& film) {
     const float factor = 1.0f / static_cast<float>(passes);
-    for (Plane3<float>* planes : {&film.unshadowed, &film.shadowed, &film.unshadowed_samples, &film.emission,
-                                  &film.base_color})
+    for (Plane3<float>* planes : {&film.unshadowed, &film.shadowed, &film.unshadowed_samples,
+                                  &film.emission, &film.base_color})
         for (Plane<float>& plane : *planes) scale(plane, factor, y0, y1);
     for (Plane<float>* plane : {&film.roughness, &film.metallic, &film.coverage})
         scale(*plane, factor, y0, y1);

@@ -5,10 +5,15 @@
 namespace penumbra::renderer {
 namespace {
 
-int tile_floor(int x) { return x / kTileSize * kTileSize; }
-int tile_ceiling(int x) { return (x + kTileSize - 1) / kTileSize * kTileSize; }
+int tile_floor(int x) {
+    return x / kTileSize * kTileSize;
+}
+int tile_ceiling(int x) {
+    return (x + kTileSize - 1) / kTileSize * kTileSize;
+}
 
-// The crop with its margin, in whole tiles of the full frame (the last row and column may stick out).
+// The crop with its margin, in whole tiles of the full frame (the last row and column may stick
+// out).
 PixelRect rendered_window(int width, int height, PixelRect crop, int margin) {
     return {.x0 = tile_floor(std::max(crop.x0 - margin, 0)),
             .y0 = tile_floor(std::max(crop.y0 - margin, 0)),

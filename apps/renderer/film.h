@@ -6,8 +6,9 @@
 
 namespace penumbra::renderer {
 
-// The full-frame planes of one frame: what the denoiser reads, what it writes, and the AOVs that were
-// asked for. Planes cover `window`, so that window pixel (0, 0) is full-frame pixel (window.x0, window.y0).
+// The full-frame planes of one frame: what the denoiser reads, what it writes, and the AOVs that
+// were asked for. Planes cover `window`, so that window pixel (0, 0) is full-frame pixel
+// (window.x0, window.y0).
 struct Film {
     int width = 0, height = 0;  // of the full frame
     PixelRect crop;             // what the user wants, inside the full frame
@@ -20,12 +21,12 @@ struct Film {
     Plane3<float> unshadowed_samples;  // U_N; likewise
     Plane3<float> emission;
     Plane<float> coverage;
-    Plane<float> depth;                // first --aa pass, as are normals, position, motion and ids
+    Plane<float> depth;  // first --aa pass, as are normals, position, motion and ids
     Plane3<float> geometric_normal;
 
     // Left behind by the frame passes.
     Plane3<float> beauty;
-    Plane<float> noise;     // E
+    Plane<float> noise;  // E
 
     // Only if wanted.
     Plane3<float> shadow;             // W

@@ -27,8 +27,8 @@ ExrMatrix world_to_camera(const Camera& c) {
              offset(c.right), offset(c.up), offset(c.forward), 1}};
 }
 
-// worldToNDC: after the division by w, (0, 0) is the display window's top left and (1, 1) its bottom
-// right.
+// worldToNDC: after the division by w, (0, 0) is the display window's top left and (1, 1) its
+// bottom right.
 ExrMatrix world_to_ndc(const Camera& c, int width, int height) {
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
@@ -53,7 +53,8 @@ image::ExrRational rational(double frames_per_second) {
 class Channels {
   public:
     Channels(const Film& film, bool float_precision)
-        : dx_(film.crop.x0 - film.window.x0), dy_(film.crop.y0 - film.window.y0),
+        : dx_(film.crop.x0 - film.window.x0),
+          dy_(film.crop.y0 - film.window.y0),
           float_precision_(float_precision) {}
 
     void add(std::string_view name, SampleType type, const Plane<float>& plane) {
@@ -70,7 +71,9 @@ class Channels {
     void add(const AovInfo& aov, const Plane3<float>& planes) {
         for (std::size_t i = 0; i < 3; ++i) add(aov.channels[i], aov.type, planes[i]);
     }
-    void add(const AovInfo& aov, const Plane<float>& plane) { add(aov.channels[0], aov.type, plane); }
+    void add(const AovInfo& aov, const Plane<float>& plane) {
+        add(aov.channels[0], aov.type, plane);
+    }
     [[nodiscard]] std::vector<image::ExrChannel> take() { return std::move(channels_); }
 
   private:
@@ -85,19 +88,32 @@ void add_aov(const AovInfo& aov, const Film& film, Channels& channels) {
             channels.add(aov, film.beauty);
             channels.add(aov.channels[3], aov.type, film.coverage);
             return;
-        case Aov::kU: return channels.add(aov, film.unshadowed);
-        case Aov::kS: return channels.add(aov, film.filtered_shadowed);
-        case Aov::kUn: return channels.add(aov, film.filtered_unshadowed_samples);
-        case Aov::kW: return channels.add(aov, film.shadow);
-        case Aov::kE: return channels.add(aov, film.noise);
-        case Aov::kEmission: return channels.add(aov, film.emission);
-        case Aov::kAlbedo: return channels.add(aov, film.base_color);
-        case Aov::kRoughness: return channels.add(aov, film.roughness);
-        case Aov::kMetallic: return channels.add(aov, film.metallic);
-        case Aov::kN: return channels.add(aov, film.normal);
-        case Aov::kNg: return channels.add(aov, film.geometric_normal);
-        case Aov::kP: return channels.add(aov, film.position);
-        case Aov::kZ: return channels.add(aov, film.depth);
+        case Aov::kU:
+            return channels.add(aov, film.unshadowed);
+        case Aov::kS:
+            return channels.add(aov, film.filtered_shadowed);
+        case Aov::kUn:
+            return channels.add(aov, film.filtered_unshadowed_samples);
+        case Aov::kW:
+            return channels.add(aov, film.shadow);
+        case Aov::kE:
+            return channels.add(aov, film.noise);
+        case Aov::kEmission:
+            return channels.add(aov, film.emission);
+        case Aov::kAlbedo:
+            return channels.add(aov, film.base_color);
+        case Aov::kRoughness:
+            return channels.add(aov, film.roughness);
+        case Aov::kMetallic:
+            return channels.add(aov, film.metallic);
+        case Aov::kN:
+            return channels.add(aov, film.normal);
+        case Aov::kNg:
+            return channels.add(aov, film.geometric_normal);
+        case Aov::kP:
+            return channels.add(aov, film.position);
+        case Aov::kZ:
+            return channels.add(aov, film.depth);
         case Aov::kMotion:
             channels.add(aov.channels[0], aov.type, film.motion_x);
             channels.add(aov.channels[1], aov.type, film.motion_y);
@@ -110,13 +126,16 @@ void add_aov(const AovInfo& aov, const Film& film, Channels& channels) {
     }
 }
 
-image::Window to_window(const PixelRect& r) { return {.x0 = r.x0, .y0 = r.y0, .x1 = r.x1, .y1 = r.y1}; }
+image::Window to_window(const PixelRect& r) {
+    return {.x0 = r.x0, .y0 = r.y0, .x1 = r.x1, .y1 = r.y1};
+}
 
 void write_preview(const Film& film, const std::string& path, float exposure) {
     const auto cut = [&](const Plane<float>& plane) {
         return plane.view().offset(film.crop.x0 - film.window.x0, film.crop.y0 - film.window.y0);
     };
-    const PlaneView3<const float> rgb = {cut(film.beauty[0]), cut(film.beauty[1]), cut(film.beauty[2])};
+    const PlaneView3<const float> rgb = {cut(film.beauty[0]), cut(film.beauty[1]),
+                                         cut(film.beauty[2])};
     image::write_png(path, image::tone_map(rgb, film.crop.width(), film.crop.height(),
                                            {.exposure_ev = exposure}));
 }

@@ -26,7 +26,9 @@ struct FrameIdentity {
 image::ExrWriteReport write_frame(const Film& film, const FrameIdentity& identity,
                                   const OutputSettings& output, int threads);
 
-// Is there a complete file made from the same scene and settings, and the preview that is asked for?
-[[nodiscard]] bool is_already_rendered(const OutputSettings& output, int frame, const std::string& digest);
+// Is there a complete file made from the same scene and settings, and the preview that is asked
+// for?
+[[nodiscard]] bool is_already_rendered(const OutputSettings& output, int frame,
+                                       const std::string& digest);
 
 }  // namespace penumbra::renderer

@@ -13,7 +13,8 @@
 namespace penumbra::renderer {
 namespace {
 
-constexpr int kBandRows = 16;  // a band is one task: small enough to balance, large enough for its halo
+constexpr int kBandRows =
+    16;  // a band is one task: small enough to balance, large enough for its halo
 
 denoise::FrameWindow window_of(const Film& film) {
     return {.width = film.width, .height = film.height, .window = film.window};
@@ -39,7 +40,9 @@ denoise::CombineInputs sums_of(const Film& film) {
             .emission = view(film.emission)};
 }
 
-denoise::CombineOutputs outputs_of(Film& film) { return {.beauty = view(film.beauty), .ratio = view(film.shadow)}; }
+denoise::CombineOutputs outputs_of(Film& film) {
+    return {.beauty = view(film.beauty), .ratio = view(film.shadow)};
+}
 
 // --denoise none.
 void combine_film(const FrameContext& context, const parallel::Arena& arena, Film& film) {
@@ -55,15 +58,16 @@ void combine_film(const FrameContext& context, const parallel::Arena& arena, Fil
     keep(film.unshadowed_samples, film.filtered_unshadowed_samples);
 }
 
-void estimate_noise(const ImageSettings& image, const FrameContext& context, const parallel::Arena& arena,
-                    FrameScratch& scratch, Film& film) {
-    const denoise::NoisePass pass{.frame = window_of(film),
-                                  .shadowed = view(std::as_const(film.shadowed)),
-                                  .unshadowed_samples = view(std::as_const(film.unshadowed_samples)),
-                                  .unshadowed = view(std::as_const(film.unshadowed)),
-                                  .noise = film.noise.view(),
-                                  .settings = image.noise,
-                                  .isa = context.isa};
+void estimate_noise(const ImageSettings& image, const FrameContext& context,
+                    const parallel::Arena& arena, FrameScratch& scratch, Film& film) {
+    const denoise::NoisePass pass{
+        .frame = window_of(film),
+        .shadowed = view(std::as_const(film.shadowed)),
+        .unshadowed_samples = view(std::as_const(film.unshadowed_samples)),
+        .unshadowed = view(std::as_const(film.unshadowed)),
+        .noise = film.noise.view(),
+        .settings = image.noise,
+        .isa = context.isa};
     for_each_band(arena, film, [&](const PixelRect& band, int worker) {
         denoise::estimate_noise(pass, band, scratch.workers[static_cast<std::size_t>(worker)]);
     });
@@ -76,30 +80,35 @@ void filter(const ImageSettings& image, const FrameContext& context, const Camer
                                        .depth = std::as_const(film.depth).view(),
                                        .normal = view(std::as_const(film.geometric_normal)),
                                        .camera = camera};
-    const denoise::HorizontalFilterPass horizontal{.frame = window_of(film),
-                                                   .guides = guides,
-                                                   .shadowed = view(film.shadowed),
-                                                   .unshadowed_samples = view(film.unshadowed_samples),
-                                                   .settings = image.filter,
-                                                   .isa = context.isa};
+    const denoise::HorizontalFilterPass horizontal{
+        .frame = window_of(film),
+        .guides = guides,
+        .shadowed = view(film.shadowed),
+        .unshadowed_samples = view(film.unshadowed_samples),
+        .settings = image.filter,
+        .isa = context.isa};
     for_each_band(arena, film, [&](const PixelRect& band, int worker) {
-        denoise::filter_horizontally(horizontal, band.y0, band.y1, scratch.workers[static_cast<std::size_t>(worker)]);
+        denoise::filter_horizontally(horizontal, band.y0, band.y1,
+                                     scratch.workers[static_cast<std::size_t>(worker)]);
     });
-    const denoise::VerticalFilterPass vertical{.frame = window_of(film),
-                                               .guides = guides,
-                                               .sums = sums_of(film),
-                                               .outputs = outputs_of(film),
-                                               .shadowed = view(film.filtered_shadowed),
-                                               .unshadowed_samples = view(film.filtered_unshadowed_samples),
-                                               .settings = image.filter,
-                                               .isa = context.isa};
-    for_each_band(arena, film, [&](const PixelRect& band, int) { denoise::filter_vertically(vertical, band); });
+    const denoise::VerticalFilterPass vertical{
+        .frame = window_of(film),
+        .guides = guides,
+        .sums = sums_of(film),
+        .outputs = outputs_of(film),
+        .shadowed = view(film.filtered_shadowed),
+        .unshadowed_samples = view(film.filtered_unshadowed_samples),
+        .settings = image.filter,
+        .isa = context.isa};
+    for_each_band(arena, film,
+                  [&](const PixelRect& band, int) { denoise::filter_vertically(vertical, band); });
 }
 
 void prepare_scratch(const Film& film, int workers, FrameScratch& scratch) {
     if (scratch.window_width == film.window.width()) return;
     scratch.window_width = film.window.width();
-    scratch.workers.assign(static_cast<std::size_t>(workers), denoise::Scratch(scratch.window_width));
+    scratch.workers.assign(static_cast<std::size_t>(workers),
+                           denoise::Scratch(scratch.window_width));
 }
 
 // --method stochastic: emission + S_N.
@@ -133,7 +142,8 @@ void finish_frame(const ImageSettings& image, const FrameContext& context, const
             scale_to_means(image.passes, band.y0 - film.window.y0, band.y1 - film.window.y0, film);
         });
     const bool filters = image.denoise == Denoise::kNoiseDriven && image.method == Method::kRatio;
-    if (filters || film.wanted.contains(Aov::kE)) estimate_noise(image, context, arena, scratch, film);
+    if (filters || film.wanted.contains(Aov::kE))
+        estimate_noise(image, context, arena, scratch, film);
     statistics.passes[Pass::kNoise] = watch.restart();
     if (filters)
         filter(image, context, camera, arena, scratch, film);

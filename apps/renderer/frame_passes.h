@@ -5,8 +5,8 @@
 #include "apps/renderer/film.h"
 #include "apps/renderer/frame_statistics.h"
 #include "apps/renderer/settings.h"
-#include "core/frame/frame_context.h"
 #include "core/frame/camera.h"
+#include "core/frame/frame_context.h"
 #include "core/parallel/arena.h"
 #include "denoise/scratch.h"
 
@@ -21,8 +21,8 @@ struct FrameScratch {
     std::vector<denoise::Scratch> workers;
 };
 
-// The passes of a whole frame, after all its tiles: means of the --aa passes, noise estimate, filter,
-// combine.
+// The passes of a whole frame, after all its tiles: means of the --aa passes, noise estimate,
+// filter, combine.
 void finish_frame(const ImageSettings& image, const FrameContext& context, const Camera& camera,
                   const parallel::Arena& arena, FrameScratch& scratch, Film& film,
                   FrameStatistics& statistics);

@@ -9,15 +9,15 @@ namespace penumbra::renderer {
 // The passes of a frame, in their order. Those of the tiles are measured in seconds of all threads
 // together, the others in wall-clock seconds.
 enum class Pass {
-    kEvaluate,    // scene at the frame's time, occluders
-    kSetup,       // vertices to clip space, triangles to bins
-    kRasterize,   // tiles, from here ...
+    kEvaluate,   // scene at the frame's time, occluders
+    kSetup,      // vertices to clip space, triangles to bins
+    kRasterize,  // tiles, from here ...
     kResolve,
-    kShade,       // U, visible lights
-    kRays,        // shadow rays and their weights, sums
+    kShade,  // U, visible lights
+    kRays,   // shadow rays and their weights, sums
     kTrace,
-    kDeposit,     // ... to here
-    kNoise,       // frame passes
+    kDeposit,  // ... to here
+    kNoise,    // frame passes
     kFilter,
 };
 inline constexpr int kPassCount = 10;

@@ -55,28 +55,31 @@ struct Renderer::State {
     shadow::LightSet lights;
     raster::Geometry geometry;
     FrameScratch frame_scratch;
-    std::vector<TileScratch> scratch;    // one per worker
-    std::vector<WorkerCounts> counts;    // one per worker
+    std::vector<TileScratch> scratch;  // one per worker
+    std::vector<WorkerCounts> counts;  // one per worker
 
     State(const Scene& s, const ImageSettings& i, const ExecutionSettings& e)
-        : scene(s), image(completed(s, i)), execution(e),
+        : scene(s),
+          image(completed(s, i)),
+          execution(e),
           arena(e.threads > 0 ? e.threads : parallel::default_thread_count()),
-          occluders(arena, e.trace_isa), scratch(static_cast<std::size_t>(arena.threads())),
+          occluders(arena, e.trace_isa),
+          scratch(static_cast<std::size_t>(arena.threads())),
           counts(static_cast<std::size_t>(arena.threads())) {
         if (!execution.isa) execution.isa = simd::best_isa();
     }
 
     void evaluate_at(int frame);
-    void render_tiles(int pass, const FrameContext& context, Film& film, FrameStatistics& statistics,
-                      const std::atomic<bool>* cancelled);
+    void render_tiles(int pass, const FrameContext& context, Film& film,
+                      FrameStatistics& statistics, const std::atomic<bool>* cancelled);
     void render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film);
     void trace_lights(const Tile& tile, const FrameContext& context, TileScratch& tile_scratch,
                       WorkerCounts& count);
 };
 
 void Renderer::State::evaluate_at(int frame) {
-    evaluate(scene, times_of_frame(scene.animation, frame), {.width = image.width, .height = image.height},
-             view);
+    evaluate(scene, times_of_frame(scene.animation, frame),
+             {.width = image.width, .height = image.height}, view);
     camera = view.camera;
     if (image.method != Method::kUnshadowed) occluders.update(view);
     shadow::prepare_lights(view, lights);
@@ -110,7 +113,8 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
 }
 
 // All that happens to a tile, in cache.
-void Renderer::State::render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film) {
+void Renderer::State::render_tile(const Tile& tile, const FrameContext& context, int worker,
+                                  Film& film) {
     TileScratch& s = scratch[static_cast<std::size_t>(worker)];
     WorkerCounts& count = counts[static_cast<std::size_t>(worker)];
     profile::Stopwatch watch;
@@ -136,7 +140,8 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
 }
 
 void Renderer::State::render_tiles(int pass, const FrameContext& context, Film& film,
-                                   FrameStatistics& statistics, const std::atomic<bool>* cancelled) {
+                                   FrameStatistics& statistics,
+                                   const std::atomic<bool>* cancelled) {
     profile::Stopwatch watch;
     jitter(camera, pass, image.passes, view.camera);
     raster::prepare(view, context, film.window, arena, geometry);
@@ -149,14 +154,19 @@ void Renderer::State::render_tiles(int pass, const FrameContext& context, Film& 
     statistics.tiles_wall_seconds += watch.restart();
 }
 
-Renderer::Renderer(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution) {
+Renderer::Renderer(const Scene& scene, const ImageSettings& image,
+                   const ExecutionSettings& execution) {
     check_settings(scene, image, execution);
     state_ = std::make_unique<State>(scene, image, execution);
 }
 Renderer::~Renderer() = default;
 
-const Camera& Renderer::camera() const { return state_->camera; }
-int Renderer::threads() const { return state_->arena.threads(); }
+const Camera& Renderer::camera() const {
+    return state_->camera;
+}
+int Renderer::threads() const {
+    return state_->arena.threads();
+}
 
 FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
                                  const std::atomic<bool>* cancelled) {
@@ -185,19 +195,23 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
         statistics.passes += count.passes;
         statistics.shadow_rays += count.shadow_rays;
     }
-    for (const Instance& instance : s.view.instances) statistics.triangles += instance.mesh->triangles.size();
+    for (const Instance& instance : s.view.instances)
+        statistics.triangles += instance.mesh->triangles.size();
     statistics.render_seconds = whole.seconds();
     return statistics;
 }
 
-void check_settings(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution) {
+void check_settings(const Scene& scene, const ImageSettings& image,
+                    const ExecutionSettings& execution) {
     const ImageSettings all = completed(scene, image);
     const PixelRect& crop = *all.crop;
     if (crop.empty() || crop.x0 < 0 || crop.y0 < 0 || crop.x1 > all.width || crop.y1 > all.height)
-        throw InputError(fmt::format("--crop: expected a part of the {} x {} picture, got {},{},{},{}", all.width,
-                                     all.height, crop.x0, crop.y0, crop.x1, crop.y1));
+        throw InputError(
+            fmt::format("--crop: expected a part of the {} x {} picture, got {},{},{},{}",
+                        all.width, all.height, crop.x0, crop.y0, crop.x1, crop.y1));
     if (execution.isa && !simd::is_supported(*execution.isa))
-        throw InputError(fmt::format("--isa: this processor does not support {}", simd::name(*execution.isa)));
+        throw InputError(
+            fmt::format("--isa: this processor does not support {}", simd::name(*execution.isa)));
     static_cast<void>(simd::best_isa());
 }
 

@@ -22,10 +22,11 @@ namespace penumbra::renderer {
 [[nodiscard]] ImageSettings completed(const Scene& scene, const ImageSettings& image);
 
 // Throws InputError where settings do not fit the scene or this machine.
-void check_settings(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution);
+void check_settings(const Scene& scene, const ImageSettings& image,
+                    const ExecutionSettings& execution);
 
-// Renders frames of one scene. Holds what outlives a frame (occluders, evaluated models, scratch memory);
-// a frame's pixels do not depend on which frames were rendered before.
+// Renders frames of one scene. Holds what outlives a frame (occluders, evaluated models, scratch
+// memory); a frame's pixels do not depend on which frames were rendered before.
 class Renderer {
   public:
     // `scene` must outlive the renderer.
@@ -34,8 +35,8 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Fills the film, which is allocated as needed. Where `cancelled` becomes true, it returns early
-    // with an unfinished film.
+    // Fills the film, which is allocated as needed. Where `cancelled` becomes true, it returns
+    // early with an unfinished film.
     FrameStatistics render(int frame, AovSet wanted, Film& film,
                            const std::atomic<bool>* cancelled = nullptr);
 

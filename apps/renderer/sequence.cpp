@@ -28,7 +28,11 @@ class Sequence {
   public:
     Sequence(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution,
              const OutputSettings& output, const std::function<void(const FrameReport&)>& on_frame)
-        : scene_(scene), image_(image), execution_(execution), output_(output), on_frame_(on_frame),
+        : scene_(scene),
+          image_(image),
+          execution_(execution),
+          output_(output),
+          on_frame_(on_frame),
           settings_(describe_settings(completed(scene, image), execution, output)),
           digest_(settings_digest(scene, settings_)) {}
 

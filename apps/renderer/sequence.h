@@ -29,14 +29,13 @@ struct SequenceReport {
     bool interrupted = false;
 };
 
-// Renders the frames and writes them, each encoded and written while the next one renders. A frame that
-// fails is reported and the others are rendered all the same. `on_frame` is called from one thread at a
-// time, in the order of the frames. Throws InputError where settings do not fit the scene.
-[[nodiscard]] SequenceReport render_sequence(const Scene& scene, const std::vector<int>& frames,
-                                             const ImageSettings& image,
-                                             const ExecutionSettings& execution,
-                                             const OutputSettings& output,
-                                             const std::function<void(const FrameReport&)>& on_frame,
-                                             const std::atomic<bool>& cancelled);
+// Renders the frames and writes them, each encoded and written while the next one renders. A frame
+// that fails is reported and the others are rendered all the same. `on_frame` is called from one
+// thread at a time, in the order of the frames. Throws InputError where settings do not fit the
+// scene.
+[[nodiscard]] SequenceReport render_sequence(
+    const Scene& scene, const std::vector<int>& frames, const ImageSettings& image,
+    const ExecutionSettings& execution, const OutputSettings& output,
+    const std::function<void(const FrameReport&)>& on_frame, const std::atomic<bool>& cancelled);
 
 }  // namespace penumbra::renderer

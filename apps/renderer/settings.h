@@ -27,19 +27,21 @@ struct ImageSettings {
     std::optional<PixelRect> crop;  // inside the frame
     Method method = Method::kRatio;
     Denoise denoise = Denoise::kNoiseDriven;
-    int samples_per_pixel = 0;      // shadow rays per light and pixel, 1 to 64; 0: the scene's
-    int passes = 1;                 // --aa: jittered passes, 1 to 256
+    int samples_per_pixel = 0;  // shadow rays per light and pixel, 1 to 64; 0: the scene's
+    int passes = 1;             // --aa: jittered passes, 1 to 256
     denoise::NoiseSettings noise;
     denoise::FilterSettings filter;
     std::uint32_t seed = 0;
-    float light_tolerance = 1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
+    float light_tolerance =
+        1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
 };
 
 // What no pixel depends on; the last two are for tests.
 struct ExecutionSettings {
     int threads = 0;  // 0: what the machine allows
     std::optional<simd::Isa> isa;
-    shadow::TraceIsa trace_isa = shadow::TraceIsa::kAvx2;  // others: one ray in a million may differ
+    shadow::TraceIsa trace_isa =
+        shadow::TraceIsa::kAvx2;  // others: one ray in a million may differ
     parallel::TileOrder tile_order{.kind = parallel::TileOrder::Kind::kMorton};
     shadow::Visibility visibility = shadow::Visibility::kTraced;
 };

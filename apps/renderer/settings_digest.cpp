@@ -12,9 +12,12 @@ namespace {
 
 std::string_view name(Method method) {
     switch (method) {
-        case Method::kRatio: return "ratio";
-        case Method::kStochastic: return "stochastic";
-        case Method::kUnshadowed: return "unshadowed";
+        case Method::kRatio:
+            return "ratio";
+        case Method::kStochastic:
+            return "stochastic";
+        case Method::kUnshadowed:
+            return "unshadowed";
     }
     return "";
 }
@@ -25,26 +28,42 @@ std::string_view name(Denoise denoise) {
 
 std::string_view name(shadow::TraceIsa isa) {
     switch (isa) {
-        case shadow::TraceIsa::kAvx2: return "avx2";
-        case shadow::TraceIsa::kAvx512: return "avx512";
-        case shadow::TraceIsa::kAuto: return "auto";
+        case shadow::TraceIsa::kAvx2:
+            return "avx2";
+        case shadow::TraceIsa::kAvx512:
+            return "avx512";
+        case shadow::TraceIsa::kAuto:
+            return "auto";
     }
     return "";
 }
 
-std::string hash(const std::string& text) { return digest_of(text, VirtualFiles{}).hex(); }
+std::string describe_filter(const ImageSettings& image) {
+    const denoise::NoiseSettings& n = image.noise;
+    const denoise::FilterSettings& f = image.filter;
+    return fmt::format(
+        "noise {} radius {} full {}, filter radius {} gain {} smallest {} normal {} plane {}, ",
+        n.rule == denoise::LineRule::kMaximum ? "maximum" : "mean", n.radius, n.full_noise,
+        f.radius, f.radius_per_noise, f.smallest_radius, f.normal_weight, f.plane_weight);
+}
+
+std::string hash(const std::string& text) {
+    return digest_of(text, VirtualFiles{}).hex();
+}
 
 }  // namespace
 
 std::string describe_settings(const ImageSettings& image, const ExecutionSettings& execution,
                               const OutputSettings& output) {
     const PixelRect crop = image.crop.value_or(PixelRect{});
-    std::string text = fmt::format("method {}, size {}x{}, crop {},{},{},{}, spp {}, aa {}, denoise {}, seed {}, "
-                                   "light-tolerance {}, trace-isa {}, precision {}, compression {}, aov",
-                                   name(image.method), image.width, image.height, crop.x0, crop.y0, crop.x1, crop.y1,
-                                   image.samples_per_pixel, image.passes, name(image.denoise), image.seed,
-                                   image.light_tolerance, name(execution.trace_isa),
-                                   output.float_precision ? "float" : "half", image::name(output.compression));
+    std::string text = fmt::format(
+        "method {}, size {}x{}, crop {},{},{},{}, spp {}, aa {}, denoise {}, seed {}, "
+        "light-tolerance {}, trace-isa {}, precision {}, compression {}, aov",
+        name(image.method), image.width, image.height, crop.x0, crop.y0, crop.x1, crop.y1,
+        image.samples_per_pixel, image.passes, name(image.denoise), image.seed,
+        image.light_tolerance, name(execution.trace_isa), output.float_precision ? "float" : "half",
+        image::name(output.compression));
+    if (image.denoise == Denoise::kNoiseDriven) text = describe_filter(image) + text;
     for (const AovInfo& aov : aov_table())
         if (output.aovs.contains(aov.aov)) text += fmt::format(" {}", aov.name);
     return text;

@@ -3,18 +3,40 @@
 namespace penumbra::renderer {
 namespace {
 
-Plane<float> plane() { return {kTileSize, kTileSize}; }
-Plane3<float> plane3() { return make_plane3<float>(kTileSize, kTileSize); }
-Plane<std::uint32_t> ids() { return {kTileSize, kTileSize}; }
+Plane<float> plane() {
+    return {kTileSize, kTileSize};
+}
+Plane3<float> plane3() {
+    return make_plane3<float>(kTileSize, kTileSize);
+}
+Plane<std::uint32_t> ids() {
+    return {kTileSize, kTileSize};
+}
 
 }  // namespace
 
 TileScratch::TileScratch()
-    : visible_instance_(ids()), visible_triangle_(ids()), position_(plane3()), shadow_origin_(plane3()),
-      geometric_normal_(plane3()), normal_(plane3()), base_color_(plane3()), emission_(plane3()),
-      roughness_(plane()), metallic_(plane()), dielectric_f0_(plane()), depth_(plane()),
-      motion_x_(plane()), motion_y_(plane()), instance_(ids()), triangle_(ids()), material_(ids()),
-      diffuse_(plane3()), glossy_(plane3()), shadowed_(plane3()), unshadowed_samples_(plane3()) {}
+    : visible_instance_(ids()),
+      visible_triangle_(ids()),
+      position_(plane3()),
+      shadow_origin_(plane3()),
+      geometric_normal_(plane3()),
+      normal_(plane3()),
+      base_color_(plane3()),
+      emission_(plane3()),
+      roughness_(plane()),
+      metallic_(plane()),
+      dielectric_f0_(plane()),
+      depth_(plane()),
+      motion_x_(plane()),
+      motion_y_(plane()),
+      instance_(ids()),
+      triangle_(ids()),
+      material_(ids()),
+      diffuse_(plane3()),
+      glossy_(plane3()),
+      shadowed_(plane3()),
+      unshadowed_samples_(plane3()) {}
 
 VisibilityView TileScratch::visibility() {
     return {.instance = visible_instance_.view(), .triangle = visible_triangle_.view()};

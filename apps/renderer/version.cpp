@@ -2,6 +2,8 @@
 
 namespace penumbra::renderer {
 
-std::string_view version() { return PENUMBRA_VERSION; }
+std::string_view version() {
+    return PENUMBRA_VERSION;
+}
 
 }  // namespace penumbra::renderer

@@ -10,14 +10,15 @@
 namespace penumbra::benchmarks {
 namespace {
 
-alignas(64) constexpr int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+alignas(64) constexpr int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                           -1, -1, -1, -1, -1, -1, -1, -1};
 
 void attach(RTCDevice device, RTCScene scene, const Instance& instance) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t vertices = instance.mesh->positions.size();
     const std::size_t triangles = instance.mesh->triangles.size();
-    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                              sizeof(Vec3f), vertices);
+    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                              RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertices);
     std::memcpy(positions, instance.positions.data(), vertices * sizeof(Vec3f));
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             sizeof(Triangle), triangles);
@@ -77,7 +78,9 @@ struct Stream {
 void occlude_stream(RTCScene scene, RTCIntersectContext& context, const RayBatch& b, Stream& s) {
     s.resize(static_cast<std::size_t>(b.size()));
     std::copy(b.far_limit.begin(), b.far_limit.end(), s.far_limit.begin());
-    const auto mutable_pointer = [](const std::vector<float>& v) { return const_cast<float*>(v.data()); };
+    const auto mutable_pointer = [](const std::vector<float>& v) {
+        return const_cast<float*>(v.data());
+    };
     RTCRayNp rays{.org_x = mutable_pointer(b.origin_x),
                   .org_y = mutable_pointer(b.origin_y),
                   .org_z = mutable_pointer(b.origin_z),
@@ -117,7 +120,8 @@ void occlude_batch(RTCScene scene, const RayBatch& b, Call call, Stream& stream)
                 rtcOccluded16(kAllValid, scene, &context, &packet);
             }
             return;
-        case Call::kStream: return occlude_stream(scene, context, b, stream);
+        case Call::kStream:
+            return occlude_stream(scene, context, b, stream);
     }
 }
 
@@ -137,7 +141,8 @@ void intersect_packets(RTCScene scene, const RayBatch& b, int lanes, Function in
 
 void intersect_batch(RTCScene scene, const RayBatch& b, Call call) {
     if (call == Call::kPacket8) return intersect_packets<RTCRayHit8>(scene, b, 8, rtcIntersect8);
-    if (call == Call::kPacket16) return intersect_packets<RTCRayHit16>(scene, b, 16, rtcIntersect16);
+    if (call == Call::kPacket16)
+        return intersect_packets<RTCRayHit16>(scene, b, 16, rtcIntersect16);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -153,10 +158,14 @@ void intersect_batch(RTCScene scene, const RayBatch& b, Call call) {
 
 const char* name(Call call) {
     switch (call) {
-        case Call::kSingle: return "single";
-        case Call::kPacket8: return "8-packets";
-        case Call::kPacket16: return "16-packets";
-        case Call::kStream: return "stream";
+        case Call::kSingle:
+            return "single";
+        case Call::kPacket8:
+            return "8-packets";
+        case Call::kPacket16:
+            return "16-packets";
+        case Call::kStream:
+            return "stream";
     }
     return "";
 }
@@ -192,16 +201,19 @@ BareEmbree::~BareEmbree() {
     rtcReleaseDevice(device_);
 }
 
-double BareEmbree::occlude(const std::vector<RayBatch>& batches, Call call, const parallel::Arena& arena) const {
+double BareEmbree::occlude(const std::vector<RayBatch>& batches, Call call,
+                           const parallel::Arena& arena) const {
     std::vector<Stream> streams(static_cast<std::size_t>(arena.threads()));
     const profile::Stopwatch watch;
     arena.for_each(static_cast<int>(batches.size()), [&](int index, int worker) {
-        occlude_batch(scene_, batches[static_cast<std::size_t>(index)], call, streams[static_cast<std::size_t>(worker)]);
+        occlude_batch(scene_, batches[static_cast<std::size_t>(index)], call,
+                      streams[static_cast<std::size_t>(worker)]);
     });
     return watch.seconds();
 }
 
-double BareEmbree::intersect(const std::vector<RayBatch>& batches, Call call, const parallel::Arena& arena) const {
+double BareEmbree::intersect(const std::vector<RayBatch>& batches, Call call,
+                             const parallel::Arena& arena) const {
     const profile::Stopwatch watch;
     arena.for_each(static_cast<int>(batches.size()), [&](int index, int) {
         intersect_batch(scene_, batches[static_cast<std::size_t>(index)], call);

@@ -18,7 +18,8 @@ inline constexpr Call kCalls[] = {Call::kSingle, Call::kPacket8, Call::kPacket16
 
 // Rays of one tile, structure of arrays; room for a multiple of 16.
 struct RayBatch {
-    std::vector<float> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, far_limit;
+    std::vector<float> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z,
+        far_limit;
     void add(const Vec3f& origin, const Vec3f& direction, float far);
     void pad();  // with rays that cannot hit, to a multiple of 16
     [[nodiscard]] int size() const { return static_cast<int>(far_limit.size()); }
@@ -34,9 +35,11 @@ class BareEmbree {
     BareEmbree& operator=(const BareEmbree&) = delete;
 
     // Seconds to find whether each ray is blocked; batches run in parallel.
-    double occlude(const std::vector<RayBatch>& batches, Call call, const parallel::Arena& arena) const;
+    double occlude(const std::vector<RayBatch>& batches, Call call,
+                   const parallel::Arena& arena) const;
     // Seconds to find each ray's nearest triangle.
-    double intersect(const std::vector<RayBatch>& batches, Call call, const parallel::Arena& arena) const;
+    double intersect(const std::vector<RayBatch>& batches, Call call,
+                     const parallel::Arena& arena) const;
 
   private:
     RTCDevice device_;

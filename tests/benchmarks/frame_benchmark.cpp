@@ -1,5 +1,5 @@
-// Measures the passes of a frame against bare Embree in the same run: the same primary rays, and exactly
-// the frame's shadow rays. Ours and theirs take turns; medians.
+// Measures the passes of a frame against bare Embree in the same run: the same primary rays, and
+// exactly the frame's shadow rays. Ours and theirs take turns; medians.
 //
 //     frame_benchmark SCENE [PAIRS] [THREADS]      (1920 x 1080, 1 ray per light and pixel)
 
@@ -24,7 +24,8 @@ namespace {
 
 constexpr int kWidth = 1920;
 constexpr int kHeight = 1080;
-constexpr int kSquare = 4;  // pixels of a tile in squares along a Z curve, as the shadow pass orders them
+constexpr int kSquare =
+    4;  // pixels of a tile in squares along a Z curve, as the shadow pass orders them
 
 template <class Body>
 void each_pixel_in_z_order(const Body& body) {
@@ -57,7 +58,9 @@ benchmarks::RayBatch primary_rays(const Camera& camera, const Tile& tile) {
 void add_active(const shadow::RayScratch& rays, benchmarks::RayBatch& batch) {
     each_pixel_in_z_order([&](int x, int y) {
         if (!(rays.active[static_cast<std::size_t>(y)] >> x & 1u)) return;
-        const auto vector = [&](const Plane3<float>& p) { return Vec3f{p[0].at(x, y), p[1].at(x, y), p[2].at(x, y)}; };
+        const auto vector = [&](const Plane3<float>& p) {
+            return Vec3f{p[0].at(x, y), p[1].at(x, y), p[2].at(x, y)};
+        };
         batch.add(vector(rays.origin), vector(rays.direction), rays.range.at(x, y));
     });
 }
@@ -71,8 +74,10 @@ struct Workload {
 };
 
 void prepare_workload(const Scene& scene, const parallel::Arena& arena, Workload& work) {
-    const FrameContext context{.width = kWidth, .height = kHeight, .frame = 1, .isa = simd::best_isa()};
-    evaluate(scene, times_of_frame(scene.animation, 1), {.width = kWidth, .height = kHeight}, work.view);
+    const FrameContext context{
+        .width = kWidth, .height = kHeight, .frame = 1, .isa = simd::best_isa()};
+    evaluate(scene, times_of_frame(scene.animation, 1), {.width = kWidth, .height = kHeight},
+             work.view);
     shadow::Occluders occluders(arena, shadow::TraceIsa::kAvx2);
     occluders.update(work.view);
     shadow::LightSet lights;
@@ -83,32 +88,37 @@ void prepare_workload(const Scene& scene, const parallel::Arena& arena, Workload
     renderer::TileScratch scratch;
     for (int i = 0; i < grid.count(); ++i) {
         const Tile tile = grid.tile(i);
-        raster::rasterize(work.view, geometry, tile, context.isa, scratch.raster, scratch.visibility());
-        raster::resolve(work.view, geometry, context, tile, scratch.visibility(), scratch.surface());
+        raster::rasterize(work.view, geometry, tile, context.isa, scratch.raster,
+                          scratch.visibility());
+        raster::resolve(work.view, geometry, context, tile, scratch.visibility(),
+                        scratch.surface());
         shadow::draw_lights(lights, work.view, context, tile, scratch.surface());
         const ConstSurfaceView surface = to_const(scratch.surface());
         shadow::cull_lights(lights, work.view, context, surface, 1.0f / 1024, scratch.lights);
         benchmarks::RayBatch batch;
         for (const std::uint32_t light : scratch.lights.kept()) {
-            shadow::generate_rays({.frame = context,
-                                   .tile = tile,
-                                   .eye = work.view.camera.eye,
-                                   .surface = surface,
-                                   .offset_scales = occluders.offset_scales()},
-                                  {.light = &work.view.lights[light], .light_index = light, .index = 0, .count = 1},
-                                  scratch.rays);
+            shadow::generate_rays(
+                {.frame = context,
+                 .tile = tile,
+                 .eye = work.view.camera.eye,
+                 .surface = surface,
+                 .offset_scales = occluders.offset_scales()},
+                {.light = &work.view.lights[light], .light_index = light, .index = 0, .count = 1},
+                scratch.rays);
             add_active(scratch.rays, batch);
         }
         batch.pad();
         work.shadow_rays += static_cast<std::size_t>(batch.count);
         work.primary.push_back(primary_rays(work.view.camera, tile));
         work.shadow.push_back(std::move(batch));
-        each_pixel_in_z_order([&](int x, int y) { work.covered_pixels += surface.material.at(x, y) != 0xFFFFFFFFu; });
+        each_pixel_in_z_order(
+            [&](int x, int y) { work.covered_pixels += surface.material.at(x, y) != 0xFFFFFFFFu; });
     }
 }
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(),
+                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
     return values[values.size() / 2];
 }
 
@@ -118,13 +128,15 @@ struct Samples {
     std::vector<double> ratio_g_buffer, excess_shadow;
 };
 
-// Tile passes are measured in seconds of all threads; their share of the tiles' wall clock is what they
-// cost a frame.
-double tile_share(const renderer::FrameStatistics& s, std::initializer_list<renderer::Pass> passes) {
+// Tile passes are measured in seconds of all threads; their share of the tiles' wall clock is what
+// they cost a frame.
+double tile_share(const renderer::FrameStatistics& s,
+                  std::initializer_list<renderer::Pass> passes) {
     double all = 0;
     double some = 0;
     for (int i = 0; i < renderer::kPassCount; ++i)
-        if (renderer::is_tile_pass(static_cast<renderer::Pass>(i))) all += s.passes.seconds[static_cast<std::size_t>(i)];
+        if (renderer::is_tile_pass(static_cast<renderer::Pass>(i)))
+            all += s.passes.seconds[static_cast<std::size_t>(i)];
     for (const renderer::Pass pass : passes) some += s.passes[pass];
     return s.tiles_wall_seconds * some / all;
 }
@@ -150,20 +162,24 @@ void run(const Scene& scene, int pairs, int threads) {
     Workload work;
     prepare_workload(scene, arena, work);
     const benchmarks::BareEmbree bare(work.view, "avx2", threads);
-    renderer::Renderer ours(scene, {.width = kWidth, .height = kHeight, .samples_per_pixel = 1}, {.threads = threads});
+    renderer::Renderer ours(scene, {.width = kWidth, .height = kHeight, .samples_per_pixel = 1},
+                            {.threads = threads});
     renderer::Film film;
     ours.render(1, {renderer::Aov::kBeauty}, film);
 
-    const Call primary_call = best_call({Call::kSingle, Call::kPacket8, Call::kPacket16},
-                                        [&](Call c) { return bare.intersect(work.primary, c, arena); });
-    const Call shadow_call = best_call({Call::kSingle, Call::kPacket8, Call::kPacket16, Call::kStream},
-                                       [&](Call c) { return bare.occlude(work.shadow, c, arena); });
+    const Call primary_call =
+        best_call({Call::kSingle, Call::kPacket8, Call::kPacket16},
+                  [&](Call c) { return bare.intersect(work.primary, c, arena); });
+    const Call shadow_call =
+        best_call({Call::kSingle, Call::kPacket8, Call::kPacket16, Call::kStream},
+                  [&](Call c) { return bare.occlude(work.shadow, c, arena); });
     Samples all;
     for (int i = 0; i < pairs; ++i) {
         const renderer::FrameStatistics s = ours.render(1, {renderer::Aov::kBeauty}, film);
         const double primary = bare.intersect(work.primary, primary_call, arena);
         const double shadow = bare.occlude(work.shadow, shadow_call, arena);
-        all.g_buffer.push_back(s.passes[Pass::kSetup] + tile_share(s, {Pass::kRasterize, Pass::kResolve}));
+        all.g_buffer.push_back(s.passes[Pass::kSetup] +
+                               tile_share(s, {Pass::kRasterize, Pass::kResolve}));
         all.shadow.push_back(tile_share(s, {Pass::kShade, Pass::kRays, Pass::kTrace}));
         all.filter.push_back(s.passes[Pass::kNoise] + s.passes[Pass::kFilter]);
         all.evaluate.push_back(s.passes[Pass::kEvaluate]);
@@ -175,21 +191,26 @@ void run(const Scene& scene, int pairs, int threads) {
     }
 
     const double pixels = static_cast<double>(kWidth) * kHeight;
-    fmt::print("{} x {}, {} threads, {} pairs, {:.0f} % covered, {:.2f} Mrays of {} lights\n", kWidth, kHeight, threads,
-               pairs, 100.0 * static_cast<double>(work.covered_pixels) / pixels, 1e-6 * static_cast<double>(work.shadow_rays),
-               work.view.lights.size());
-    const auto row = [](const char* what, const std::vector<double>& seconds, const std::string& note) {
+    fmt::print("{} x {}, {} threads, {} pairs, {:.0f} % covered, {:.2f} Mrays of {} lights\n",
+               kWidth, kHeight, threads, pairs,
+               100.0 * static_cast<double>(work.covered_pixels) / pixels,
+               1e-6 * static_cast<double>(work.shadow_rays), work.view.lights.size());
+    const auto row = [](const char* what, const std::vector<double>& seconds,
+                        const std::string& note) {
         fmt::print("{:<28} {:8.1f} ms  {}\n", what, 1e3 * median(seconds), note);
     };
-    row("G-buffer", all.g_buffer, fmt::format("{:.2f} x the primary rays", median(all.ratio_g_buffer)));
+    row("G-buffer", all.g_buffer,
+        fmt::format("{:.2f} x the primary rays", median(all.ratio_g_buffer)));
     row("  bare primary rays", all.bare_primary, benchmarks::name(primary_call));
-    row("shadow pass", all.shadow, fmt::format("the bare rays + {:.1f} ms", 1e3 * median(all.excess_shadow)));
+    row("shadow pass", all.shadow,
+        fmt::format("the bare rays + {:.1f} ms", 1e3 * median(all.excess_shadow)));
     row("  bare shadow rays", all.bare_shadow,
         fmt::format("{}, {:.1f} Mrays/s", benchmarks::name(shadow_call),
                     1e-6 * static_cast<double>(work.shadow_rays) / median(all.bare_shadow)));
     row("filter chain", all.filter, "");
     row("evaluate", all.evaluate, "");
-    row("whole frame", all.frame, fmt::format("{:.1f} Mpixel/s", 1e-6 * pixels / median(all.frame)));
+    row("whole frame", all.frame,
+        fmt::format("{:.1f} Mpixel/s", 1e-6 * pixels / median(all.frame)));
 }
 
 }  // namespace

@@ -20,14 +20,17 @@ const Scene& builtin() {
 
 TEST_CASE("the image does not depend on the number of threads") {
     const std::uint64_t expected = digest(render(builtin(), kSmall, {.threads = 1}));
-    for (const int threads : {2, 3, 7}) CHECK(digest(render(builtin(), kSmall, {.threads = threads})) == expected);
+    for (const int threads : {2, 3, 7})
+        CHECK(digest(render(builtin(), kSmall, {.threads = threads})) == expected);
 }
 
 TEST_CASE("the image does not depend on the order of the tiles") {
     const std::uint64_t expected = digest(render(builtin(), kSmall));
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const parallel::TileOrder shuffled{.kind = parallel::TileOrder::Kind::kShuffled, .seed = seed};
-        CHECK(digest(render(builtin(), kSmall, {.threads = 2, .tile_order = shuffled})) == expected);
+        const parallel::TileOrder shuffled{.kind = parallel::TileOrder::Kind::kShuffled,
+                                           .seed = seed};
+        CHECK(digest(render(builtin(), kSmall, {.threads = 2, .tile_order = shuffled})) ==
+              expected);
     }
 }
 
@@ -55,8 +58,8 @@ TEST_CASE("another seed and another frame give other samples") {
 TEST_CASE("a crop is bit-equal to that cut-out of the full frame") {
     const ImageSettings size{.width = 420, .height = 300, .samples_per_pixel = 1};
     const Film full = render(builtin(), size);
-    for (const PixelRect crop : {PixelRect{0, 0, 1, 1}, PixelRect{131, 70, 300, 200}, PixelRect{410, 290, 420, 300},
-                                 PixelRect{64, 64, 128, 128}}) {
+    for (const PixelRect crop : {PixelRect{0, 0, 1, 1}, PixelRect{131, 70, 300, 200},
+                                 PixelRect{410, 290, 420, 300}, PixelRect{64, 64, 128, 128}}) {
         ImageSettings cropped = size;
         cropped.crop = crop;
         Film cut_out = render(builtin(), cropped);

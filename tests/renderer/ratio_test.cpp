@@ -15,8 +15,9 @@ const ImageSettings kSmall{.width = 240, .height = 136, .samples_per_pixel = 1};
 std::vector<Scene> all_scenes() {
     std::vector<Scene> scenes;
     scenes.push_back(renderer::read_builtin_scene());
-    for (const char* name : {"cornell-box/cornell-box.json", "cubes/cubes-small.json", "cubes/cubes-medium.json",
-                             "cubes/cubes-large.json", "textured-wall/textured-wall.json", "teapot/teapot.json"})
+    for (const char* name :
+         {"cornell-box/cornell-box.json", "cubes/cubes-small.json", "cubes/cubes-medium.json",
+          "cubes/cubes-large.json", "textured-wall/textured-wall.json", "teapot/teapot.json"})
         scenes.push_back(read_scene(data_scene(name)));
     return scenes;
 }
@@ -25,7 +26,8 @@ int pixels_unlike_emission_plus_u(const Film& film) {
     int unlike = 0;
     each_pixel(film, [&](int x, int y) {
         for (std::size_t c = 0; c < 3; ++c)
-            unlike += film.beauty[c].at(x, y) != film.emission[c].at(x, y) + film.unshadowed[c].at(x, y);
+            unlike +=
+                film.beauty[c].at(x, y) != film.emission[c].at(x, y) + film.unshadowed[c].at(x, y);
     });
     return unlike;
 }
@@ -71,8 +73,8 @@ TEST_CASE("every pixel is finite, W lies in [0, 1] and beauty between emission a
 
 TEST_CASE("the ratio estimator converges to the stochastic one as rays are added") {
     const Scene scene = read_scene(data_scene("cubes/cubes-medium.json"));
-    ImageSettings settings{.width = 96, .height = 64, .denoise = renderer::Denoise::kNone,
-                           .samples_per_pixel = 64};
+    ImageSettings settings{
+        .width = 96, .height = 64, .denoise = renderer::Denoise::kNone, .samples_per_pixel = 64};
     const Film ratio = render(scene, settings);
     settings.method = renderer::Method::kStochastic;
     settings.seed = 77;
@@ -88,8 +90,8 @@ TEST_CASE("the ratio estimator converges to the stochastic one as rays are added
 
 TEST_CASE("the denoised frame of one ray lies nearer to the converged one than the raw frame") {
     const Scene scene = read_scene(data_scene("cubes/cubes-large.json"));
-    ImageSettings settings{.width = 192, .height = 108, .denoise = renderer::Denoise::kNone,
-                           .samples_per_pixel = 64};
+    ImageSettings settings{
+        .width = 192, .height = 108, .denoise = renderer::Denoise::kNone, .samples_per_pixel = 64};
     const Film converged = render(scene, settings);
     settings.samples_per_pixel = 1;
     const auto error = [&](const Film& film) {

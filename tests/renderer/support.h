@@ -16,14 +16,16 @@ using renderer::ExecutionSettings;
 using renderer::Film;
 using renderer::ImageSettings;
 
-inline AovSet all_aovs() { return renderer::parse_aov_list("all"); }
+inline AovSet all_aovs() {
+    return renderer::parse_aov_list("all");
+}
 
 inline std::filesystem::path data_scene(const std::string& name) {
     return std::filesystem::path(PENUMBRA_SOURCE_DIR) / "data/scenes" / name;
 }
 
-inline Film render(const Scene& scene, const ImageSettings& image, const ExecutionSettings& execution = {},
-                   int frame = 1) {
+inline Film render(const Scene& scene, const ImageSettings& image,
+                   const ExecutionSettings& execution = {}, int frame = 1) {
     renderer::Renderer renderer(scene, image, execution);
     Film film;
     renderer.render(frame, all_aovs(), film);
