@@ -13,7 +13,6 @@ using denoise::kBlock;
 using denoise::kCellColumns;
 using denoise::kNoiseStride;
 using denoise::NoiseChunk;
-using denoise::Points;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -91,8 +90,8 @@ void write_star_noise(const NoiseChunk& c, int x, int y) {
     const int rotation =
         denoise::line_rotation(x + c.pass->frame.window.x0, y + c.pass->frame.window.y0);
     for (int lane = 0; lane < kBlock; lane += kLanes) {
-        const F noise = denoise::star_noise<F, Points::kSomeUnknown>(
-            c.ratio + index + lane, c.rotations[rotation], c.pass->settings);
+        const F noise =
+            denoise::star_noise<F>(c.ratio + index + lane, c.rotations[rotation], c.pass->settings);
         simd::store(c.unsmoothed + index + lane, simd::select(exists(c, x + lane), noise, F(0)));
     }
 }

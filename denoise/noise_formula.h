@@ -31,10 +31,8 @@ F luminance_ratio(const Vec3<F>& shadowed, const Vec3<F>& unshadowed_samples) {
                         F(std::numeric_limits<float>::quiet_NaN()));
 }
 
-// E of one line, in [0, 1]: `ratio` points at the pixel's W_N. Where every point is known both
-// versions give the same bits.
-enum class Points { kAllKnown, kSomeUnknown };
-template <class F, Points kPoints>
+// E of one line, in [0, 1]: `ratio` points at the pixel's W_N.
+template <class F>
 F line_noise(const float* ratio, const LineOffsets& offsets, const NoiseSettings& settings) {
     const int points = 2 * settings.radius + 1;
     F before = simd::load<F>(ratio + offsets[0]);
@@ -44,28 +42,23 @@ F line_noise(const float* ratio, const LineOffsets& offsets, const NoiseSettings
     for (int i = 2; i < points; ++i) {
         const F after = simd::load<F>(ratio + offsets[i]);
         const F bend = simd::abs(simd::fma(here, F(-2), before + after));
-        if constexpr (kPoints == Points::kAllKnown) {
-            variation += bend;
-        } else {
-            variation += simd::max(bend, F(0));  // the second operand where the first is NaN
-            known += simd::select(bend == bend, F(1), F(0));
-        }
+        variation += simd::max(bend, F(0));  // the second operand where the first is NaN
+        known += simd::select(bend == bend, F(1), F(0));
         before = here;
         here = after;
     }
-    if constexpr (kPoints == Points::kSomeUnknown)
-        variation *= F(static_cast<float>(points - 2)) / simd::max(known, F(1));
-    const F mean = variation * F(1 / static_cast<float>(settings.radius));
+    const F scale = F(static_cast<float>(points - 2)) / simd::max(known, F(1));
+    const F mean = variation * scale * F(1 / static_cast<float>(settings.radius));
     return simd::min(simd::sqrt(mean) * F(1 / settings.full_noise), F(1));
 }
 
 // E of a pixel before the 3x3 box.
-template <class F, Points kPoints>
+template <class F>
 F star_noise(const float* ratio, const StarOffsets& offsets, const NoiseSettings& settings) {
     F largest = F(0);
     F sum = F(0);
     for (int line = 0; line < kLines; ++line) {
-        const F noise = line_noise<F, kPoints>(ratio, offsets[line], settings);
+        const F noise = line_noise<F>(ratio, offsets[line], settings);
         largest = simd::max(largest, noise);
         sum += noise;
     }

@@ -108,15 +108,11 @@ TEST_CASE("a line's noise is that of its definition, and its unknown points do n
     const NoiseSettings settings{.full_noise = 4};
     // 19 second differences of size 2.
     const float expected = std::sqrt(38.0f / 10) / 4;
-    CHECK(line_noise<float, Points::kAllKnown>(ratio + 10, offsets, settings) ==
-          doctest::Approx(expected));
-    CHECK(line_noise<float, Points::kSomeUnknown>(ratio + 10, offsets, settings) ==
-          line_noise<float, Points::kAllKnown>(ratio + 10, offsets, settings));
+    CHECK(line_noise<float>(ratio + 10, offsets, settings) == doctest::Approx(expected));
     ratio[5] = std::nanf("");
-    CHECK(line_noise<float, Points::kSomeUnknown>(ratio + 10, offsets, settings) ==
-          doctest::Approx(expected));
+    CHECK(line_noise<float>(ratio + 10, offsets, settings) == doctest::Approx(expected));
     for (float& value : ratio) value = std::nanf("");
-    CHECK(line_noise<float, Points::kSomeUnknown>(ratio + 10, offsets, settings) == 0.0f);
+    CHECK(line_noise<float>(ratio + 10, offsets, settings) == 0.0f);
 }
 
 TEST_CASE("every rotation of the lines is used about equally often") {
