@@ -1,10 +1,15 @@
 #include "core/image/exr.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include "core/error.h"
@@ -217,6 +222,74 @@ TEST_CASE("mutated EXR files give an error or an image, and nothing worse") {
             }
         }
     }
+}
+
+TEST_CASE("DWAA, lossy, stays close in colours and exact in ids and depth") {
+    const TemporaryFolder folder;
+    Sample sample({0, 0, 64, 64}, {0, 0, 64, 64}, ExrCompression::kDwaa);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) sample.half.at(x, y) = 1 + 0.01f * static_cast<float>(x + y);
+    }
+    write_exr(folder / "a.exr", sample.image, 2);
+    const ExrPixels read = read_exr(folder / "a.exr");
+    float worst = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            worst =
+                std::max(worst, std::fabs(read.find("R")->floats.at(x, y) - sample.half.at(x, y)));
+        }
+    }
+    CHECK(worst < 0.03f);
+    CHECK(read.find("id.instance")->ids.at(5, 7) == sample.ids.at(5, 7));
+    check_same(read.find("Z")->floats, sample.real, 64, 64);
+}
+
+TEST_CASE("a tiled EXR file with mip levels gives its full-size level") {
+    const TemporaryFolder folder;
+    const Plane<float> plane = half_exact_plane(50, 41, 6);
+    {
+        Imf::Header header(50, 41);
+        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        header.setTileDescription({16, 8, Imf::MIPMAP_LEVELS});
+        Imf::TiledOutputFile file((folder / "tiled.exr").c_str(), header, 0);
+        Imf::FrameBuffer buffer;
+        buffer.insert(
+            "Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(const_cast<float*>(plane.row(0))),
+                            sizeof(float), plane.stride() * sizeof(float)));
+        file.setFrameBuffer(buffer);
+        for (int level = 0; level < file.numLevels(); ++level) {
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+        }
+    }
+    const ExrPixels read = read_exr(folder / "tiled.exr");
+    CHECK(read.header.is_tiled);
+    CHECK(read.header.is_complete());
+    check_same(read.find("Y")->floats, plane, 50, 41);
+}
+
+TEST_CASE("a subsampled channel is refused by name, an unfinished file as incomplete") {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.exr").string();
+    Imf::Header header(8, 8);
+    header.channels().insert("Y", Imf::Channel(Imf::HALF));
+    header.channels().insert("RY", Imf::Channel(Imf::HALF, 2, 2));
+    // Never given pixels: what a killed writer leaves.
+    { const Imf::OutputFile file(path.c_str(), header, 0); }
+    const ExrHeader read = read_exr_header(path);
+    CHECK(read.missing_chunks == read.chunks);
+    CHECK_THROWS_WITH_AS((void)read_exr(path), doctest::Contains("incomplete"), InputError);
+    {
+        Imf::OutputFile file(path.c_str(), header, 0);
+        std::vector<std::uint16_t> zeros(64, 0);
+        Imf::FrameBuffer buffer;
+        char* pixels = reinterpret_cast<char*>(zeros.data());
+        buffer.insert("Y", Imf::Slice(Imf::HALF, pixels, 2, 16));
+        buffer.insert("RY", Imf::Slice(Imf::HALF, pixels, 2, 8, 2, 2));
+        file.setFrameBuffer(buffer);
+        file.writePixels(8);
+    }
+    CHECK_THROWS_WITH_AS((void)read_exr(path), doctest::Contains("'RY' is subsampled 2 x 2"),
+                         InputError);
 }
 
 TEST_CASE("writing an EXR file to a full disk is an error") {
