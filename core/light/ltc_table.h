@@ -12,14 +12,17 @@
 //
 // The frame is that of frame_from_normal_and_view: z is the normal, the view is (sin, 0, cos).
 //
-// How a light is shaded. With D the distribution of the entry (a density over the whole sphere),
-//     specular radiance = L * ltc_specular_scale(entry, f0) * (integral of D over the light's
-//     directions
-//                                                              with z > 0)
+// How a light is shaded. With D the distribution of the entry (a density over the whole sphere) and
+// H the light's directions above the horizon,
+//     specular radiance = L * ltc_specular_scale(entry, f0) * (integral of D over H)
 // that is: clip the light to the true horizon first, then transform its vertices by to_cosine_space
 // and integrate the clamped cosine. `norm` and `fresnel` are already divided by the mass of D above
-// the horizon, so that a light that fills the hemisphere gives exactly the albedo of the tabulated
-// BRDF.
+// the horizon, so that a light that fills the hemisphere gives exactly the tabulated albedo.
+//
+// Measured through the lookup (ltc_fit --measure; 20 roughnesses x 20 angles up to 89 degrees):
+// mean L1 distance of the lobes 0.100 of their albedo, L2 0.076, error of the albedo 6e-5 (at most
+// 0.0018), mass below the horizon 0.22 % (at most 0.9 %); mean error of the radiance of 640 random
+// polygons 0.0023. The largest errors are those of views near grazing.
 
 namespace penumbra {
 
@@ -57,8 +60,9 @@ F ltc_angle_coordinate(const F& cos_view) {
     return steep / simd::fma(F(kLtcGrazingStretch), simd::sqrt(cosine), steep);
 }
 
-// Bilinear lookup. Roughness is clamped to [kMinimumRoughness, 1] and the cosine to [0, 1]; NaN is
-// not allowed. The same bits for float and any lane count.
+// Bilinear lookup. Roughness is clamped to [kMinimumRoughness, 1] and the cosine to [0, 1]; NaN
+// counts as the lower bound, so lanes that hold nothing are harmless. The same bits for float and
+// any lane count.
 template <class F>
 LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view, const float* table = kLtcTable);
 

@@ -78,11 +78,14 @@ TEST_CASE("the lookup returns the table's rows at its nodes and their mean betwe
           doctest::Approx(0.5 * (table_value(30, 20, 5) + table_value(31, 20, 5))).epsilon(1e-5));
 }
 
-TEST_CASE("roughness and cosine outside the table count as its nearest edge") {
+TEST_CASE(
+    "roughness and cosine outside the table count as its nearest edge, NaN as the lower one") {
     CHECK(entry_at(0.0, 0.5).norm == entry_at(kMinimumRoughness, 0.5).norm);
     CHECK(entry_at(7.0, 0.5).norm == entry_at(1.0, 0.5).norm);
     CHECK(entry_at(0.5, -0.1).norm == entry_at(0.5, 0.0).norm);
     CHECK(entry_at(0.5, 1.0000001).norm == entry_at(0.5, 1.0).norm);
+    CHECK(entry_at(std::nan(""), 0.5).norm == entry_at(kMinimumRoughness, 0.5).norm);
+    CHECK(entry_at(0.5, std::nan("")).norm == entry_at(0.5, 0.0).norm);
 }
 
 TEST_CASE("the matrices of the table fit again to what is committed") {

@@ -47,7 +47,7 @@ inline LtcShape initial_shape(const LobeConfiguration& lobe) {
 }
 
 struct FitSettings {
-    int resolution = 64;
+    int resolution = 144;
     // A residual counts as much as (value / peak + floor)^-flattening: flattening 0 is least
     // squares, which sees little but the peak; 1 with a small floor bounds the L1 distance, but
     // loses the peak. Of those tried these give about the least L1 distance and radiance error of

@@ -44,6 +44,7 @@ inline LtcShape fit_round_shape(const LobeConfiguration& lobe, const FitSettings
 // from the shape of narrow lobes.
 inline std::vector<LtcShape> fit_roughness(double roughness, const FitSettings& settings) {
     std::vector<LtcShape> shapes;
+    shapes.reserve(kLtcAngleNodes);
     for (int angle = 0; angle < kLtcAngleNodes; ++angle) {
         const LobeConfiguration lobe{roughness, node_cos_view(angle)};
         if (angle == 0) {
@@ -90,6 +91,7 @@ inline std::vector<TableRow> table_rows(int roughness_index, const FitSettings& 
     const double roughness = node_roughness(roughness_index);
     const std::vector<LtcShape> shapes = fit_roughness(roughness, settings);
     std::vector<TableRow> rows;
+    rows.reserve(kLtcAngleNodes);
     for (int angle = 0; angle < kLtcAngleNodes; ++angle)
         rows.push_back(
             table_row({roughness, node_cos_view(angle)}, shapes[static_cast<std::size_t>(angle)]));

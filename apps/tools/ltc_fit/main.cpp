@@ -27,6 +27,7 @@ Table fit_table(const FitSettings& settings) {
             by_roughness[static_cast<std::size_t>(index)] = table_rows(index, settings);
     };
     std::vector<std::jthread> pool;
+    pool.reserve(static_cast<std::size_t>(threads));
     for (int thread = 0; thread < threads; ++thread) pool.emplace_back(work, thread);
     pool.clear();
     Table table;
