@@ -96,6 +96,49 @@ TEST_CASE("one bright light near a small patch of floor makes hundreds of dim on
     CHECK(largest_loss(all, shade_with(set, scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
 }
 
+TEST_CASE("small lights that mirror in a polished floor are kept, however little they light it") {
+    reference::Random random(46);
+    SceneView scene;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3d center = {random.uniform(-1, 1), 2, random.uniform(-3, -2)};
+        scene.lights.push_back(
+            make_light(reference::ellipse_polygon(random, center, {0.004, 0, 0}, {0, 0.004, 0}),
+                       {3, 3, 3}, true));
+    }
+    scene.lights.push_back(
+        make_light({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {10, 10, 10}, true));
+    scene.camera.eye = {0, 2, 2.5f};  // sees the small lights mirrored around the origin
+    shadow::LightSet set;
+    shadow::prepare_lights(scene, set);
+    TilePlanes tile;
+    fill_tile(random, Landscape::kFloor, 0.2, tile);
+    tile.roughness.fill(0.06f);
+    const Luminances all = shade_with(set, scene, 0, tile);
+    CHECK(largest_loss(all, shade_with(set, scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
+    CHECK(kept_lights(set, scene, tile, 1.0f / 1024).size() > 50);
+}
+
+TEST_CASE("it is the sum of the culled lights that stays below the tolerance") {
+    reference::Random random(47);
+    SceneView scene;
+    const reference::Points place = {
+        {-0.01, 2, -0.01}, {0.01, 2, -0.01}, {0.01, 2, 0.01}, {-0.01, 2, 0.01}};
+    scene.lights.push_back(make_light(place, {1600, 1600, 1600}, true));
+    for (int i = 0; i < 20; ++i) scene.lights.push_back(make_light(place, {20, 20, 20}, true));
+    scene.camera.eye = {0, 2, 2};
+    shadow::LightSet set;
+    shadow::prepare_lights(scene, set);
+    TilePlanes tile;
+    fill_tile(random, Landscape::kFloor, 0.01, tile);
+    tile.roughness.fill(1);
+    tile.dielectric_f0.fill(0);
+    for (Plane<float>& plane : tile.base_color) plane.fill(0.9f);
+    // Each adds 1/80 of the bright one: five are less than 1/16 of what is left, and six are not.
+    const std::size_t culled = 21 - kept_lights(set, scene, tile, 1.0f / 16).size();
+    CHECK(culled >= 2);
+    CHECK(culled <= 5);
+}
+
 TEST_CASE("a tolerance of zero keeps every light, and the kept ones are in ascending order") {
     reference::Random random(43);
     const SceneView scene = random_lights(random, 100, 1);
