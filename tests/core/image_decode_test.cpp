@@ -84,22 +84,23 @@ Bytes random_bytes(std::size_t count, std::uint64_t seed) {
     return bytes;
 }
 
+void append(Bytes& bytes, std::initializer_list<std::uint8_t> more) {
+    for (const std::uint8_t byte : more) bytes.push_back(byte);
+}
+
 // A grey 16 x 8 JPEG of two blocks, written by hand: quantisation 1, a Huffman table with the DC
 // sizes 0 and 5 and the AC end of block; the blocks' DC differences are 0 and +16 (2 grey steps).
 Bytes small_jpeg() {
-    Bytes jpeg{0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0};
-    jpeg.insert(jpeg.end(), 64, 1);
-    jpeg.insert(jpeg.end(), {0xFF, 0xC0, 0, 11, 8, 0, 8, 0, 16, 1, 1, 0x11, 0});
+    Bytes jpeg;
+    append(jpeg, {0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0});
+    for (int i = 0; i < 64; ++i) jpeg.push_back(1);
+    append(jpeg, {0xFF, 0xC0, 0, 11, 8, 0, 8, 0, 16, 1, 1, 0x11, 0});
     // Codes of 1 bit: "0" means size 0; of 2 bits: "10" means size 5.
-    jpeg.insert(jpeg.end(),
-                {0xFF, 0xC4, 0, 21, 0x00, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5});
-    jpeg.insert(jpeg.end(),
-                {0xFF, 0xC4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-    jpeg.insert(jpeg.end(), {0xFF, 0xDA, 0, 8, 1, 1, 0x00, 0, 63, 0});
-    // DC 0, AC end; DC size 5 with bits 10000 (16), AC end; ones to fill: 0 0 10 10000 0 1111111
-    jpeg.insert(jpeg.end(), {0x28, 0x3F, 0xFF, 0xD9});
-    jpeg[jpeg.size() - 4] = 0b00101000;
-    jpeg[jpeg.size() - 3] = 0b00111111;
+    append(jpeg, {0xFF, 0xC4, 0, 21, 0x00, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5});
+    append(jpeg, {0xFF, 0xC4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    append(jpeg, {0xFF, 0xDA, 0, 8, 1, 1, 0x00, 0, 63, 0});
+    // DC 0, AC end; DC size 5 with bits 10000 (16), AC end; ones to fill: 0 0 10 10000 0 111111.
+    append(jpeg, {0b00101000, 0b00111111, 0xFF, 0xD9});
     return jpeg;
 }
 
