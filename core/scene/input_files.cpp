@@ -51,6 +51,8 @@ void require_regular_file(const fs::path& file) {
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status)) throw InputError(file, "no such file");
     if (fs::is_directory(status)) throw InputError(file, "is a folder, expected a file");
+    // Pipes and devices may never end, and the digest reads files a second time.
+    if (!fs::is_regular_file(status)) throw InputError(file, "is a device, expected a file");
 }
 
 bool InputFiles::exists(const fs::path& file) const {
@@ -91,7 +93,7 @@ std::optional<fs::path> InputFiles::find(const fs::path& folder, std::string_vie
     return find_any_case(folder, path.filename());
 }
 
-std::string InputFiles::read(const fs::path& file) {
+std::string InputFiles::read(const fs::path& file, std::size_t limit) {
     note(file);
     if (virtual_) {
         const auto found = virtual_->find(file.lexically_normal().generic_string());
@@ -99,6 +101,9 @@ std::string InputFiles::read(const fs::path& file) {
         return found->second;
     }
     require_regular_file(file);
+    std::error_code unknown_size;
+    if (const auto size = fs::file_size(file, unknown_size); !unknown_size && size > limit)
+        throw InputError(file, fmt::format("{} bytes long, expected at most {}", size, limit));
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(file, "cannot be opened for reading");
     std::string content;

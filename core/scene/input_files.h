@@ -29,9 +29,10 @@ class InputFiles {
     [[nodiscard]] std::optional<std::filesystem::path> find(const std::filesystem::path& folder,
                                                             std::string_view name) const;
 
-    // The whole content; the file is noted as read. Throws InputError where it is missing or a
-    // folder, OutputError where the disk fails.
-    [[nodiscard]] std::string read(const std::filesystem::path& file);
+    // The whole content; the file is noted as read. Throws InputError where it is missing, no plain
+    // file or longer than `limit`, OutputError where the disk fails.
+    [[nodiscard]] std::string read(const std::filesystem::path& file,
+                                   std::size_t limit = std::size_t{1} << 31);
 
     // Notes a file that somebody else reads.
     void note(const std::filesystem::path& file);
@@ -48,7 +49,7 @@ class InputFiles {
     std::vector<std::filesystem::path> read_;
 };
 
-// Opens a file for reading; throws InputError where it is missing or no file.
+// Throws InputError where the file is missing, a folder or a device.
 void require_regular_file(const std::filesystem::path& file);
 
 }  // namespace penumbra

@@ -17,6 +17,7 @@ namespace penumbra {
 namespace {
 
 constexpr float kLargestRadiance = 1e12f;
+constexpr std::size_t kLargestLibrary = std::size_t{256} << 20;
 
 // Which statements of a material exist and where: tinyobjloader gives missing ones values like any.
 using Statements = std::map<std::string, std::size_t, std::less<>>;  // keyword -> line
@@ -165,14 +166,15 @@ class Converter {
   private:
     bool has(std::string_view keyword) const { return given_->contains(keyword); }
 
-    [[noreturn]] void fail(std::string_view keyword, std::string_view message) const {
-        throw InputError(file_, fmt::format("line {}", given_->find(keyword)->second),
-                         fmt::format("{}: {}", keyword, message));
+    std::string message(std::string_view keyword, std::string_view text) const {
+        return fmt::format("{}: line {}: {}: {}", file_.string(), given_->find(keyword)->second,
+                           keyword, text);
     }
     float in_range(std::string_view keyword, float x, float low, float high) const {
         if (!(x >= low && x <= high))
-            fail(keyword,
-                 fmt::format("expected a number between {:g} and {:g}, got {:g}", low, high, x));
+            throw InputError(message(
+                keyword,
+                fmt::format("expected a number between {:g} and {:g}, got {:g}", low, high, x)));
         return x;
     }
     // Exporters write 1.0000001; the colour of a surface ends at 1 all the same.
@@ -207,11 +209,12 @@ class Converter {
 
     MapRequest request(std::string_view keyword, const std::string& name, TextureKind kind,
                        const tinyobj::texture_option_t& options) const {
-        const auto found = files_.find(file_.parent_path(), name);
-        if (!found) fail(keyword, fmt::format("no such file: \"{}\"", printable(name)));
         MapRequest map;
-        map.file = *found;
         map.request.kind = kind;
+        if (const auto found = files_.find(file_.parent_path(), name))
+            map.file = *found;
+        else
+            map.problem = message(keyword, fmt::format("no such file: \"{}\"", printable(name)));
         if (options.imfchan == 'r') map.request.channel = 0;
         if (options.imfchan == 'g') map.request.channel = 1;
         if (options.imfchan == 'b') map.request.channel = 2;
@@ -267,7 +270,7 @@ void warn_of_glass(const std::filesystem::path& file, const std::vector<std::str
 
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, InputFiles& files,
                                   std::vector<std::string>& warnings) {
-    const ScannedMtl scanned = Scanner(file).scan(files.read(file));
+    const ScannedMtl scanned = Scanner(file).scan(files.read(file, kLargestLibrary));
     if (scanned.materials.empty()) return {};
     std::map<std::string, int> ignored_index;
     std::vector<tinyobj::material_t> raw;

@@ -198,8 +198,7 @@ Scene read_scene(const fs::path& file) {
     InputFiles files;
     const std::string extension = lower_extension(file);
     if (extension == ".json") {
-        require_regular_file(file);
-        read_document(file, files.read(file), files, scene);
+        read_document(file, files.read(file, json::kMaxDocumentBytes), files, scene);
     } else if (extension == ".obj") {
         read_model_alone(file, files, scene);
     } else {

@@ -17,6 +17,12 @@ bool emits(const Material& material) {
 
 }  // namespace
 
+void SceneBuilder::warn(std::string message) {
+    auto& warnings = scene_.warnings;
+    if (std::find(warnings.begin(), warnings.end(), message) == warnings.end())
+        warnings.push_back(std::move(message));
+}
+
 void SceneBuilder::read_libraries(const std::filesystem::path& file,
                                   const std::vector<std::string>& names, ModelFile& model) {
     const std::filesystem::path folder = file.parent_path();

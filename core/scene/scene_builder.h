@@ -66,7 +66,7 @@ class SceneBuilder {
     [[nodiscard]] std::uint32_t make_material(const std::string& key, const std::string& name,
                                               const MtlMaterial* base);
     void add_emitters(const Model& model, std::uint32_t index);
-    void warn(std::string message) { scene_.warnings.push_back(std::move(message)); }
+    void warn(std::string message);  // once
 
     Scene& scene_;
     InputFiles& files_;

@@ -20,6 +20,7 @@ LoadedTexture TextureSet::read(const MapRequest& map) {
 }
 
 int TextureSet::load(const MapRequest& map) {
+    if (!map.problem.empty()) throw InputError(map.problem);
     const Key key{map.file.lexically_normal().generic_string(), map.request.kind,
                   map.request.channel.value_or(-1), map.request.relief, map.height_if_grey};
     if (const auto found = loaded_.find(key); found != loaded_.end()) return found->second;

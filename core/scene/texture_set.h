@@ -17,6 +17,7 @@ struct MapRequest {
     std::filesystem::path file;
     TextureRequest request;
     bool height_if_grey = false;  // MTL's map_Bump: a normal map unless its channels are equal
+    std::string problem;          // why there is no file: an error only if the map is used
 };
 
 struct MaterialMaps {

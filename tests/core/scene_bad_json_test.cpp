@@ -234,6 +234,14 @@ TEST_CASE("files that are missing, folders or of another kind are refused") {
           "scene.blend: expected a scene (.json) or a model (.obj)");
     std::filesystem::create_directory(folder / "folder.json");
     CHECK(folder.error_of("folder.json") == "folder.json: is a folder, expected a file");
+    std::filesystem::create_symlink("/dev/zero", folder / "zero.json");
+    std::filesystem::create_symlink("/dev/zero", folder / "zero.obj");
+    CHECK(folder.error_of("zero.json") == "zero.json: is a device, expected a file");
+    CHECK(folder.error_of("zero.obj") == "zero.obj: is a device, expected a file");
+    folder.write("long.json", "{");
+    std::filesystem::resize_file(folder / "long.json", std::uintmax_t{1} << 40);
+    CHECK(folder.error_of("long.json") ==
+          "long.json: 1099511627776 bytes long, expected at most 67108864");
 }
 
 TEST_CASE("messages stay on one line, whatever the file holds") {

@@ -165,6 +165,15 @@ TEST_CASE("bad MTL lines and missing textures are refused with the line") {
     CHECK(error("newmtl m\nmap_Kd broken.png\n").starts_with("broken.png: "));
 }
 
+TEST_CASE("a missing texture is an error only where it is used") {
+    const SceneFolder folder;
+    CHECK_NOTHROW(static_cast<void>(read(folder, "newmtl m\nnewmtl unused\nmap_Kd none.png\n")));
+    folder.write("model.mtl", "newmtl m\nmap_Kd none.png\n");
+    const Scene scene = read_scene(folder.write("shot.json", R"({
+        "models": [{"file": "model.obj"}], "materials": {"m": {"base_color_map": null}}})"));
+    CHECK(scene.materials[0].base_color_map == kNoTexture);
+}
+
 TEST_CASE("what an MTL asks for and is not drawn is warned of once") {
     const SceneFolder folder;
     folder.write("map.hdr", picture());
