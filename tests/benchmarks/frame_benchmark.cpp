@@ -1,7 +1,9 @@
 // Measures the passes of a frame against bare Embree in the same run: the same primary rays, and
 // exactly the frame's shadow rays. Ours and theirs take turns; medians.
 //
-//     frame_benchmark SCENE [PAIRS] [THREADS]      (1920 x 1080, 1 ray per light and pixel)
+//     frame_benchmark SCENE [PAIRS] [THREADS] [LIGHTS]
+//
+// 1920 x 1080, 1 ray per light and pixel; of the scene's lights the first LIGHTS, by default 1.
 
 #include <fmt/format.h>
 
@@ -111,8 +113,10 @@ void prepare_workload(const Scene& scene, const parallel::Arena& arena, Workload
         work.shadow_rays += static_cast<std::size_t>(batch.count);
         work.primary.push_back(primary_rays(work.view.camera, tile));
         work.shadow.push_back(std::move(batch));
-        each_pixel_in_z_order(
-            [&](int x, int y) { work.covered_pixels += surface.material.at(x, y) != 0xFFFFFFFFu; });
+        each_pixel_in_z_order([&](int x, int y) {
+            if (tile.x0 + x < kWidth && tile.y0 + y < kHeight)
+                work.covered_pixels += surface.depth.at(x, y) < kDepthOfNothing;
+        });
     }
 }
 
@@ -217,13 +221,17 @@ void run(const Scene& scene, int pairs, int threads) {
 
 int main(int argc, char** argv) {
     if (argc < 2) {
-        fmt::print(stderr, "usage: frame_benchmark SCENE [PAIRS] [THREADS]\n");
+        fmt::print(stderr, "usage: frame_benchmark SCENE [PAIRS] [THREADS] [LIGHTS]\n");
         return 2;
     }
     try {
         const int pairs = argc > 2 ? std::atoi(argv[2]) : 11;
         const int threads = argc > 3 ? std::atoi(argv[3]) : 2;
-        run(read_scene(argv[1]), std::max(pairs, 1), std::max(threads, 1));
+        const int lights = argc > 4 ? std::atoi(argv[4]) : 1;
+        Scene scene = read_scene(argv[1]);
+        scene.lights.resize(
+            std::min(scene.lights.size(), static_cast<std::size_t>(std::max(lights, 0))));
+        run(scene, std::max(pairs, 1), std::max(threads, 1));
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());
         return 1;
