@@ -1,6 +1,7 @@
 #include "core/scene/obj_lines.h"
 
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "core/scene/text_scan.h"
@@ -48,19 +49,25 @@ void ObjLines::fail(std::string_view message) const {
     throw InputError(file_, fmt::format("line {}", served_line_), message);
 }
 
-// Up to the next '\n', '\r' or the file's end.
+bool ObjLines::refill() {
+    if (block_at_ < block_.size()) return true;
+    block_.resize(kBlockBytes);
+    raw_.read(block_.data(), static_cast<std::streamsize>(kBlockBytes));
+    block_.resize(static_cast<std::size_t>(raw_.gcount()));
+    block_at_ = 0;
+    if (raw_.bad()) throw OutputError(file_, "reading failed");
+    return !block_.empty();
+}
+
+// Up to the next '\n', "\r\n", '\r' or the file's end.
 bool ObjLines::fetch_physical_line() {
     physical_.clear();
-    while (true) {
-        if (block_at_ == block_.size()) {
-            block_.resize(kBlockBytes);
-            raw_.read(block_.data(), static_cast<std::streamsize>(kBlockBytes));
-            block_.resize(static_cast<std::size_t>(raw_.gcount()));
-            block_at_ = 0;
-            if (raw_.bad()) throw OutputError(file_, "reading failed");
-            if (block_.empty()) return !physical_.empty();
-        }
+    bool is_last = true;
+    while (refill()) {
         const char* const start = block_.data() + block_at_;
+        if (after_carriage_ && *start == '\n') ++block_at_;
+        if (std::exchange(after_carriage_, false) && *start == '\n') continue;
+        is_last = false;
         std::size_t length = block_.size() - block_at_;
         const auto* feed = static_cast<const char*>(std::memchr(start, '\n', length));
         if (feed) length = static_cast<std::size_t>(feed - start);
@@ -70,22 +77,24 @@ bool ObjLines::fetch_physical_line() {
         if (physical_.size() > kLongestLine)
             throw InputError(file_, fmt::format("line {}", physical_line_ + 1),
                              "longer than 64 MiB: not an OBJ file");
+        after_carriage_ = carriage != nullptr;
         block_at_ += length + (feed || carriage ? 1 : 0);
         if (feed || carriage) return true;
     }
+    return !is_last;
 }
 
-// A '\r' before '\n' yields one empty line too many, so lines are counted by '\n' where there are
-// any.
+// Joins lines that end in a backslash.
 bool ObjLines::fetch_line() {
     line_.clear();
     while (fetch_physical_line()) {
-        const bool after_carriage = block_at_ > 0 && block_[block_at_ - 1] == '\r';
-        if (after_carriage && block_at_ < block_.size() && block_[block_at_] == '\n') ++block_at_;
         ++physical_line_;
         line_ += physical_;
         if (line_.empty() || line_.back() != '\\' || line_.front() == '#') return true;
         line_.back() = ' ';
+        if (line_.size() > kLongestLine)
+            throw InputError(file_, fmt::format("line {}", physical_line_),
+                             "longer than 64 MiB: not an OBJ file");
     }
     return !line_.empty();
 }

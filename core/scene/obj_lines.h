@@ -28,6 +28,7 @@ class ObjLines : public std::streambuf {
     int_type underflow() override;
 
   private:
+    bool refill();
     bool fetch_physical_line();
     bool fetch_line();
     void filter_line();
@@ -38,6 +39,7 @@ class ObjLines : public std::streambuf {
     std::istream& raw_;
     std::string block_;  // read ahead
     std::size_t block_at_ = 0;
+    bool after_carriage_ = false;  // a line feed right here belongs to the line before
     std::string physical_, line_;
     std::size_t physical_line_ = 0;
     std::size_t served_line_ = 0;

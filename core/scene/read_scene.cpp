@@ -185,6 +185,7 @@ void read_model_alone(const fs::path& file, InputFiles& files, Scene& scene) {
                                            .scale = constant(Vec3f{1, 1, 1}),
                                            .rotate = constant(rotation_from_degrees({0, 0, 0}))},
                              .material = std::nullopt});
+    builder.finish();
     scene.camera = framing_camera(scene);
     if (scene.emitters.empty()) scene.lights.push_back(default_light(scene));
 }

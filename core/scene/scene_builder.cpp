@@ -121,6 +121,10 @@ void SceneBuilder::add_emitters(const Model& model, std::uint32_t index) {
 }
 
 void SceneBuilder::finish() {
+    constexpr std::size_t kManyLights = 4096;
+    if (scene_.emitters.size() > kManyLights)
+        warn(fmt::format("{} emissive faces, each a light of its own: rendering will take long",
+                         scene_.emitters.size()));
     for (const std::string& name : entries_.names())
         if (name != "default" && !used_entries_.contains(name))
             warn(fmt::format("materials.{}: no model uses a material of this name",

@@ -142,6 +142,19 @@ TEST_CASE("line numbers count as editors do, whatever the line ends") {
     }
 }
 
+TEST_CASE("line numbers stay right in long files, wherever blocks end") {
+    const SceneFolder folder;
+    // 17 bytes divide 2^20 + 1: the first block of 1 MiB ends between "\r" and "\n".
+    for (const std::size_t width : {14, 61, 62}) {
+        std::string text;
+        std::size_t lines = 0;
+        for (; text.size() < 3500000; ++lines) text += "#" + std::string(width, 'x') + "\r\n";
+        CHECK(folder.error_of_obj(text + "f 1\r\n") ==
+              fmt::format("model.obj: line {}: face uses vertex 1, but only 0 are defined",
+                          lines + 1));
+    }
+}
+
 TEST_CASE("triangles without area are dropped and counted") {
     const Scene scene = read_obj_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 1 0 0\nf 1 2 3\nf 1 2 2\nf 1 2 4\nf 2 5 3\nf 1 2\n");
