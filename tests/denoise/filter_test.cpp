@@ -244,12 +244,17 @@ TEST_CASE("a crop has the bits of its part of the full frame") {
 TEST_CASE("what lies in the planes beyond the frame changes nothing") {
     TestFrame clean = make_test_frame(130, 70);
     TestFrame dirty = make_test_frame(130, 70);
-    for (Plane3<float>* planes :
-         {&dirty.shadowed, &dirty.samples, &dirty.unshadowed, &dirty.normal})
-        for (Plane<float>& plane : *planes)
-            for (int y = 0; y < 128; ++y)
-                for (int x = 0; x < 192; ++x)
-                    if (x >= 130 || y >= 70) plane.at(x, y) = unit_random(x, y, 41);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 192; ++x) {
+            if (x < 130 && y < 70) continue;
+            // A surface that continues that of the frame, with light of its own.
+            set_surface(dirty, x, y, x, y);
+            for (std::size_t c = 0; c < 3; ++c) {
+                dirty.samples[c].at(x, y) = 1 + unit_random(x, y, 41);
+                dirty.shadowed[c].at(x, y) = unit_random(x, y, 42);
+                dirty.unshadowed[c].at(x, y) = 1;
+            }
+        }
     run_chain(clean);
     run_chain(dirty);
     CHECK(count_differences(clean, clean.beauty, dirty.beauty) == 0);

@@ -10,7 +10,7 @@
 #include "denoise/joint_bilateral.h"
 #include "denoise/noise_estimate.h"
 
-// A made-up frame: a floor that runs away from the viewer, a wall behind it, sky above; a striped
+// A made-up frame: a floor that runs away from the viewer, a wall behind it, some sky; a striped
 // shadow with penumbrae, noise of one sample per pixel, and some pixels where nothing was learned.
 // Every number is a function of the full frame's pixel, so that windows of one frame agree.
 
@@ -65,16 +65,18 @@ inline Camera test_camera(int width, int height) {
     return camera;
 }
 
-// Floor at height 0, a slanted wall from 9 metres on, sky in the top rows.
+// Floor at height 0, a slanted wall from 9 metres on, sky in a corner.
 inline void set_surface(TestFrame& frame, int x, int y, int i, int j) {
     const Vec3f d =
         frame.camera.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     const Vec3f wall{0.28f, 0, 0.96f};
     const float to_wall = (-9 - dot(wall, frame.camera.eye)) / dot(wall, d);
     const float to_floor = d.y < 0 ? -frame.camera.eye.y / d.y : 1e9f;
-    const bool is_sky = y < 6;
+    const bool is_sky = y < 6 && x >= 40;
     const Vec3f n = is_sky ? Vec3f{0, 0, 0} : to_floor < to_wall ? Vec3f{0, 1, 0} : wall;
-    frame.depth.at(i, j) = is_sky ? kDepthOfNothing : std::min(to_floor, to_wall);
+    // A relief of a tenth of a pixel's size lets the plane weights take all values.
+    const float relief = 1 + 0.1f * unit_random(x, y, 9) / frame.camera.focal;
+    frame.depth.at(i, j) = is_sky ? kDepthOfNothing : std::min(to_floor, to_wall) * relief;
     frame.normal[0].at(i, j) = n.x;
     frame.normal[1].at(i, j) = n.y;
     frame.normal[2].at(i, j) = n.z;
