@@ -148,7 +148,7 @@ TEST_CASE("line numbers stay right in long files, wherever blocks end") {
     for (const std::size_t width : {14, 61, 62}) {
         std::string text;
         std::size_t lines = 0;
-        for (; text.size() < 3500000; ++lines) text += "#" + std::string(width, 'x') + "\r\n";
+        for (; text.size() < 3500000; ++lines) text.append("#").append(width, 'x').append("\r\n");
         CHECK(folder.error_of_obj(text + "f 1\r\n") ==
               fmt::format("model.obj: line {}: face uses vertex 1, but only 0 are defined",
                           lines + 1));
