@@ -10,7 +10,8 @@
 #include "apps/tools/ltc_fit/measure.h"
 #include "core/error.h"
 
-// Makes core/light/ltc_table_data.inc, or measures the table that this program was built with.
+// Makes core/light/ltc_table_data.inc (two minutes of one core), or measures the table that this
+// program was built with.
 
 namespace penumbra::ltc_fit {
 namespace {
