@@ -37,7 +37,7 @@ std::string device_configuration(TraceIsa isa) {
     const char* const name = isa == TraceIsa::kAvx2     ? "isa=avx2,"
                              : isa == TraceIsa::kAvx512 ? "isa=avx512,"
                                                         : "";
-    // No number of threads: that would be a limit for all of the process. Builds join our arena.
+    // No number of threads: that would be a limit for all of the process. Builds run in our arena.
     return std::string(name) + "start_threads=0,set_affinity=0";
 }
 
@@ -151,7 +151,8 @@ struct Occluders::Implementation {
     }
 
     void commit(RTCScene scene) const {
-        arena.run([scene] { rtcJoinCommitScene(scene); });
+        // Not rtcJoinCommitScene: with TBB that one brings in threads of an arena of Embree's own.
+        arena.run([scene] { rtcCommitScene(scene); });
         check(device.get(), "building the shadow rays' tree");
     }
 

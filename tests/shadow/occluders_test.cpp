@@ -1,6 +1,7 @@
 #include "shadow/occluders.h"
 
 #include <doctest/doctest.h>
+#include <time.h>
 
 #include <bit>
 #include <cmath>
@@ -159,6 +160,25 @@ TEST_CASE("the number of threads changes no bit") {
     }
     CHECK(results[0] == results[1]);
     CHECK(results[0] == results[2]);
+}
+
+TEST_CASE("building uses the arena's threads and no others") {
+    const auto seconds = [](clockid_t clock) {
+        timespec now{};
+        clock_gettime(clock, &now);
+        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    };
+    const SphereMesh sphere = make_sphere(250);
+    HandScene scene;
+    scene.add(sphere.positions, sphere.triangles);
+    scene.evaluated();
+    const parallel::Arena arena(1);  // the calling thread
+    Occluders occluders(arena, TraceIsa::kAvx2);
+    const double own = seconds(CLOCK_THREAD_CPUTIME_ID), all = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    occluders.update(scene.view);
+    const double own_used = seconds(CLOCK_THREAD_CPUTIME_ID) - own;
+    const double others_used = seconds(CLOCK_PROCESS_CPUTIME_ID) - all - own_used;
+    CHECK(others_used < 0.1 * own_used);
 }
 
 TEST_CASE("the result for a ray does not depend on the rays beside it") {
