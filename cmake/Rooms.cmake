@@ -9,6 +9,9 @@ set(PENUMBRA_ISA_OPTIONS_avx512 ${PENUMBRA_ISA_OPTIONS_avx2} -mavx512f -mavx512c
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # g++'s own AVX-512 headers trip these two.
     list(APPEND PENUMBRA_ISA_OPTIONS_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)
+    # g++ gives statics of inline functions a binding that objcopy cannot make local.
+    list(APPEND PENUMBRA_ISA_OPTIONS_avx2 -fno-gnu-unique)
+    list(APPEND PENUMBRA_ISA_OPTIONS_avx512 -fno-gnu-unique)
 endif()
 
 # penumbra_add_kernels(TARGET SOURCE...): adds the kernels' joined objects to TARGET.
