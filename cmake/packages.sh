@@ -5,6 +5,7 @@ PENUMBRA_BUILD_PACKAGES=(
     build-essential cmake ninja-build pkg-config git
     libembree-dev libtbb-dev libopenexr-dev libimath-dev libtinyobjloader-dev libglm-dev libxsimd-dev
     libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libstb-dev
+    libdeflate-dev
 )
 PENUMBRA_TEST_PACKAGES=(doctest-dev libbenchmark-dev glmark2-data clang-format clang-tidy)
 

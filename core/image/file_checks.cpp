@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/image/crc32.h"
 #include "core/image/decode.h"
+#include "core/image/zlib_stream.h"
 
 namespace penumbra::image {
 namespace {

@@ -3,9 +3,8 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/image/crc32.h"
-#include "core/image/deflate.h"
 #include "core/image/publish.h"
+#include "core/image/zlib_stream.h"
 
 namespace penumbra::image {
 namespace {

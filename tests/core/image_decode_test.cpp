@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/image/crc32.h"
+#include "core/image/zlib_stream.h"
 #include "core/image/exr.h"
 #include "core/image/file_reader.h"
 #include "core/image/srgb.h"

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "core/image/decode.h"
-#include "core/image/deflate.h"
-#include "core/image/huffman.h"
 #include "core/image/srgb.h"
 #include "tests/core/image_testing.h"
 
@@ -78,28 +76,6 @@ TEST_CASE("smooth pictures become much smaller than their pixels") {
     CHECK(encode_png(picture).size() < picture.bytes.size() / 100);
     CHECK(encode_png(make_picture(400, 300, 3, Content::kNoise)).size() <
           400 * 300 * 3 * 102 / 100);
-}
-
-TEST_CASE("Huffman codes are complete, within their limit, and shorter for what is frequent") {
-    Random random(3);
-    for (int round = 0; round < 60; ++round) {
-        std::vector<std::uint32_t> counts(286, 0);
-        // From even to wildly uneven (Fibonacci-like growth makes the deepest trees).
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            if (random.below(3) > 0)
-                counts[i] = 1u << random.below(1 + static_cast<unsigned>(round) / 2);
-        }
-        for (const int longest : {9, 15}) {
-            const HuffmanCode code = make_huffman_code(counts, longest);
-            double kraft = 0;
-            for (std::size_t i = 0; i < counts.size(); ++i) {
-                CHECK_FALSE((counts[i] > 0 && code.lengths[i] == 0));
-                if (code.lengths[i] > 0) kraft += std::exp2(-code.lengths[i]);
-                CHECK(code.lengths[i] <= longest);
-            }
-            CHECK(kraft == 1.0);
-        }
-    }
 }
 
 TEST_CASE("previews show mid-tones as sRGB and roll highlights off") {

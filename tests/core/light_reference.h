@@ -133,7 +133,11 @@ class Random {
 };
 
 inline Vec3d rounded(const Vec3d& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    // Through memory: at -O3 g++ 12 vectorises double -> float -> double to nothing.
+    const volatile float x = static_cast<float>(v.x);
+    const volatile float y = static_cast<float>(v.y);
+    const volatile float z = static_cast<float>(v.z);
+    return {x, y, z};
 }
 
 inline Points rounded(Points polygon) {

@@ -80,6 +80,7 @@ door oneTBB '(tbb|oneapi)/' core/parallel/
 door OpenEXR '(OpenEXR/|Imath/|Imf|Iex)' core/image/
 door tinyobjloader 'tiny_obj_loader' core/scene/
 door "the JSON library" 'nlohmann' '(core/scene|apps/cli)/'
+door libdeflate 'libdeflate' core/image/
 door stb '(stb/)?stb_image' core/
 door CLI11 'CLI/' apps/cli/
 
