@@ -176,8 +176,9 @@ void filter_channel(F& shadowed, F& unshadowed_samples, F shadowed_sum, F unshad
     const F s = shadowed_sum * inverse_weights;
     const F u = unshadowed_sum * inverse_weights;
     constexpr float kRounding = 0x1p-18f;  // > (taps of the sum + taps of the weights + 2) / 2^24
-    const auto changes = (simd::abs(s - shadowed) > shadowed * F(kRounding)) |
-                         (simd::abs(u - unshadowed_samples) > unshadowed_samples * F(kRounding));
+    const auto s_changes = simd::abs(s - shadowed) > shadowed * F(kRounding);
+    const auto u_changes = simd::abs(u - unshadowed_samples) > unshadowed_samples * F(kRounding);
+    const auto changes = s_changes | u_changes;
     shadowed = simd::select(changes, s, shadowed);
     unshadowed_samples = simd::select(changes, u, unshadowed_samples);
 }
