@@ -88,9 +88,9 @@ void put_material(const ResolveJob& job, const Target& target, const MaterialTab
     if (material.base_color_map && out.base_color[0])
         base_color = base_color * sample(material.base_color_map, footprint);
     if (material.roughness_map && out.roughness)
-        roughness *= sample(material.roughness_map, footprint).x;
+        roughness *= sample_red(material.roughness_map, footprint);
     if (material.metallic_map && out.metallic)
-        metallic *= sample(material.metallic_map, footprint).x;
+        metallic *= sample_red(material.metallic_map, footprint);
     const Vec3<F> dark{F(0), F(0), F(0)};
     target.put(out.base_color, base_color);
     target.put(out.roughness, simd::clamp(roughness, F(kMinimumRoughness), F(1)));

@@ -40,9 +40,32 @@ F mip_level(const TextureMap& map, const TextureFootprint<F>& footprint) {
                        F(static_cast<float>(map.level_count - 1)));
 }
 
-// Red, green and blue in [0, 65535] of one level, bilinear.
+// A texel's channels in [0, 65535]: what a lookup returns is what it reads.
 template <class F>
-Vec3<F> sample_level(const TextureMap& map, const Vec2<F>& uv, simd::IntOf<F> level) {
+void read_texel(const TextureMap& map, simd::IntOf<F> at, Vec3<F>& rgb) {
+    using I = simd::IntOf<F>;
+    using U = simd::UintOf<F>;
+    const I red_green = simd::gather(map.texels, at);
+    const I blue_alpha = simd::gather(map.texels + 1, at);
+    rgb = {simd::to_float(red_green & I(0xFFFF)), simd::to_float(I(U(red_green) >> 16)),
+           simd::to_float(blue_alpha & I(0xFFFF))};
+}
+template <class F>
+void read_texel(const TextureMap& map, simd::IntOf<F> at, F& red) {
+    red = simd::to_float(simd::gather(map.texels, at) & simd::IntOf<F>(0xFFFF));
+}
+template <class F>
+Vec3<F> mix(const Vec3<F>& a, const Vec3<F>& b, F t) {
+    return fma(b - a, t, a);
+}
+template <class F>
+F mix(const F& a, const F& b, F t) {
+    return simd::lerp(a, b, t);
+}
+
+// One level, bilinear, in [0, 65535]. Value is Vec3<F> for red, green and blue, F for red alone.
+template <class Value, class F>
+Value sample_level(const TextureMap& map, const Vec2<F>& uv, simd::IntOf<F> level) {
     using I = simd::IntOf<F>;
     const I entry = level * I(3);
     const I width = simd::gather(map.levels, entry);
@@ -51,34 +74,39 @@ Vec3<F> sample_level(const TextureMap& map, const Vec2<F>& uv, simd::IntOf<F> le
     const TexelPair<F> x = texel_pair(uv.x, width);
     const TexelPair<F> y = texel_pair(F(1) - uv.y, height);
     const auto texel = [&](I column, I row) {
-        const I at = offset + (row * width + column) * I(2);
-        const I red_green = simd::gather(map.texels, at);
-        const I blue_alpha = simd::gather(map.texels + 1, at);
-        using U = simd::UintOf<F>;
-        return Vec3<F>{simd::to_float(red_green & I(0xFFFF)), simd::to_float(I(U(red_green) >> 16)),
-                       simd::to_float(blue_alpha & I(0xFFFF))};
+        Value value;
+        read_texel<F>(map, offset + (row * width + column) * I(2), value);
+        return value;
     };
-    const auto mix = [](const Vec3<F>& a, const Vec3<F>& b, F t) { return fma(b - a, t, a); };
-    const Vec3<F> upper = mix(texel(x.first, y.first), texel(x.second, y.first), x.fraction);
-    const Vec3<F> lower = mix(texel(x.first, y.second), texel(x.second, y.second), x.fraction);
+    const Value upper = mix(texel(x.first, y.first), texel(x.second, y.first), x.fraction);
+    const Value lower = mix(texel(x.first, y.second), texel(x.second, y.second), x.fraction);
     return mix(upper, lower, y.fraction);
 }
 
-// Red, green and blue in [0, 1], trilinear.
-template <class F>
-Vec3<F> sample(const TextureMap& map, const TextureFootprint<F>& footprint) {
+template <class Value, class F>
+Value sample_as(const TextureMap& map, const TextureFootprint<F>& footprint) {
     using I = simd::IntOf<F>;
     const F level = mip_level(map, footprint);
     const F whole = simd::floor(level);
     const F fraction = level - whole;
     const I first = simd::to_int(whole);
     const F scale(1.0f / 65535.0f);
-    const Vec3<F> fine = sample_level(map, footprint.uv, first);
+    const Value fine = sample_level<Value>(map, footprint.uv, first);
     // Where no lane lies between levels the second one has weight 0: the same value without it.
     if (simd::none(fraction > F(0))) return fine * scale;
     const I second = simd::min(first + I(1), I(map.level_count - 1));
-    const Vec3<F> coarse = sample_level(map, footprint.uv, second);
-    return fma(coarse - fine, fraction, fine) * scale;
+    return mix(fine, sample_level<Value>(map, footprint.uv, second), fraction) * scale;
+}
+
+// Red, green and blue in [0, 1], trilinear.
+template <class F>
+Vec3<F> sample(const TextureMap& map, const TextureFootprint<F>& footprint) {
+    return sample_as<Vec3<F>>(map, footprint);
+}
+// The first channel in [0, 1], trilinear.
+template <class F>
+F sample_red(const TextureMap& map, const TextureFootprint<F>& footprint) {
+    return sample_as<F>(map, footprint);
 }
 
 }  // namespace penumbra::raster
