@@ -242,6 +242,8 @@ struct Occluders::Implementation {
         if (changed) commit(top.get());
     }
 
+    [[nodiscard]] RTCScene scene() const { return top ? top.get() : fixed.get(); }
+
     void clear() {
         placements.clear();
         top.reset();
@@ -296,9 +298,38 @@ std::span<const float> Occluders::offset_scales() const {
     return implementation_->scales;
 }
 
+#if RTC_VERSION_MAJOR >= 4
+
+// Without streams: packets of 16, of which the last one is filled up with masked rays.
+void Occluders::occlude(const RayStream& rays) const {
+    constexpr int kPacket = 16;
+    const Implementation& self = *implementation_;
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    for (int first = 0; first < rays.count; first += kPacket) {
+        RTCRay16 packet{};
+        alignas(64) int valid[kPacket];
+        for (int i = 0; i < kPacket; ++i) valid[i] = first + i < rays.count ? -1 : 0;
+        std::copy_n(rays.origin[0] + first, kPacket, packet.org_x);
+        std::copy_n(rays.origin[1] + first, kPacket, packet.org_y);
+        std::copy_n(rays.origin[2] + first, kPacket, packet.org_z);
+        std::copy_n(rays.direction[0] + first, kPacket, packet.dir_x);
+        std::copy_n(rays.direction[1] + first, kPacket, packet.dir_y);
+        std::copy_n(rays.direction[2] + first, kPacket, packet.dir_z);
+        std::copy_n(rays.near_limit + first, kPacket, packet.tnear);
+        std::copy_n(rays.far_limit + first, kPacket, packet.tfar);
+        std::fill_n(packet.mask, kPacket, 0xFFFFFFFFu);
+        rtcOccluded16(valid, self.scene(), &packet, &arguments);
+        std::copy_n(packet.tfar, kPacket, rays.far_limit + first);
+    }
+}
+
+#else
+
+// As one stream: fewer calls than packets, and Embree gathers what its own width needs.
 void Occluders::occlude(const RayStream& rays) const {
     const Implementation& self = *implementation_;
-    const RTCScene scene = self.top ? self.top.get() : self.fixed.get();
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
@@ -311,7 +342,9 @@ void Occluders::occlude(const RayStream& rays) const {
     stream.dir_z = rays.direction[2];
     stream.tnear = rays.near_limit;
     stream.tfar = rays.far_limit;
-    rtcOccludedNp(scene, &context, &stream, static_cast<unsigned>(rays.count));
+    rtcOccludedNp(self.scene(), &context, &stream, static_cast<unsigned>(rays.count));
 }
+
+#endif
 
 }  // namespace penumbra::shadow

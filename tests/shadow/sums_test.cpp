@@ -73,7 +73,7 @@ struct Integrand {
 
 Reference reference(const SceneView& scene, const PolygonLight& light, const SurfacePoint& point,
                     const Vec3f& eye) {
-    constexpr int kSteps = 500;
+    constexpr int kSteps = 240;
     const Integrand integrand{point, to_double(eye)};
     Reference sum;
     const Vec3d a = to_double(light.vertices[0]);
@@ -115,11 +115,18 @@ Estimate estimate(const std::vector<double>& replicates) {
     return result;
 }
 
+// The first rows of a tile: enough, and quick under sanitizers.
+constexpr int kUsedPixels = 16 * kTileSize;
+
+void fill(HandTile& tile, const SurfacePoint& point) {
+    for (int pixel = 0; pixel < kUsedPixels; ++pixel) tile.set(pixel, point);
+}
+
 double tile_mean(const Plane<float>& plane) {
     double sum = 0;
-    for (int y = 0; y < kTileSize; ++y)
-        for (int x = 0; x < kTileSize; ++x) sum += static_cast<double>(plane.at(x, y));
-    return sum / kTilePixels;
+    for (int pixel = 0; pixel < kUsedPixels; ++pixel)
+        sum += static_cast<double>(plane.row(0)[pixel]);
+    return sum / kUsedPixels;
 }
 
 struct SumsCase {
@@ -154,7 +161,7 @@ std::vector<SumsCase> sums_cases() {
     return {{"rect, 1 ray", rect, rough, eye, 1},
             {"rect, 4 rays", rect, shiny, eye, 4},
             {"rect, 5 rays, MIS", rect, shiny, eye, 5},
-            {"rect, 64 rays, MIS", rect, shiny, eye, 64},
+            {"rect, 20 rays, MIS", rect, shiny, eye, 20},
             {"metal, 16 rays, MIS", rect, metal, eye, 16},
             {"triangle", triangle, rough, eye, 2},
             {"cut by the horizon", standing, rough, eye, 1},
@@ -170,7 +177,7 @@ constexpr double kSignificantT = 7.5;
 void check_means(const SumsCase& c, const Occluders& occluders, const SceneView& view) {
     const Reference expected = reference(view, c.light, c.point, c.eye);
     HandTile tile;
-    tile.fill(c.point);
+    fill(tile, c.point);
     RayScratch scratch;
     TileRun run{&occluders, Visibility::kTraced, c.eye, {}};
     run.frame.isa = simd::best_isa();
@@ -234,7 +241,7 @@ TEST_CASE("the mean of U_N is the closed form where that is exact") {
         // The specular part, which has no closed form, from the cubature.
         const double specular = expected.unshadowed.x - expected.diffuse.x;
         HandTile tile;
-        tile.fill(c.point);
+        fill(tile, c.point);
         RayScratch scratch;
         TileRun run{&occluders, Visibility::kForcedToOne, c.eye, {}};
         std::vector<double> means;
@@ -262,7 +269,7 @@ TEST_CASE(
     RayScratch scratch;
     for (const SumsCase& c : sums_cases()) {
         HandTile tile;
-        tile.fill(c.point);
+        fill(tile, c.point);
         TileRun run{&occluders, Visibility::kForcedToOne, c.eye, {}};
         add_light(run, c.light, c.samples, tile, scratch);
         for (std::size_t channel = 0; channel < 3; ++channel)
@@ -291,7 +298,7 @@ TEST_CASE("rays and sums have the same bits for 8 and 16 lanes") {
     RayScratch scratch;
     for (const SumsCase& c : sums_cases()) {
         HandTile tiles[2];
-        for (int pixel = 0; pixel < kTilePixels; ++pixel) {
+        for (int pixel = 0; pixel < kUsedPixels; ++pixel) {
             SurfacePoint point = c.point;
             point.position = {unit(random), 0.1f * unit(random), unit(random)};
             point.normal = normalize(Vec3f{unit(random), 1, unit(random)});
