@@ -14,7 +14,7 @@ struct RenderOptions {
     std::string frames;  // empty: the scene's range
     std::string size, crop, aovs = "beauty";
     std::string method = "ratio", denoise = "noise-driven", compression = "zip", precision = "half";
-    std::string noise_rule = "maximum";
+    std::string noise_rule = "mean";
     std::string isa = "auto", trace_isa = "avx2", progress = "auto";
     std::string preview, statistics;
     bool dry_run = false;

@@ -118,7 +118,6 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
     TileScratch& s = scratch[static_cast<std::size_t>(worker)];
     WorkerCounts& count = counts[static_cast<std::size_t>(worker)];
     profile::Stopwatch watch;
-    s.clear_sums();
 
     raster::rasterize(view, geometry, tile, context.isa, s.raster, s.visibility());
     count.passes[Pass::kRasterize] += watch.restart();
@@ -132,6 +131,7 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
     shadow::shade(lights, s.lights, view, context, surface, s.sums());
     count.passes[Pass::kShade] += watch.restart();
 
+    s.clear_samples();
     if (image.method != Method::kUnshadowed) trace_lights(tile, context, s, count);
 
     watch.restart();

@@ -67,8 +67,8 @@ LightSumsView TileScratch::sums() {
             .unshadowed_samples = view(unshadowed_samples_)};
 }
 
-void TileScratch::clear_sums() {
-    for (Plane3<float>* planes : {&diffuse_, &glossy_, &shadowed_, &unshadowed_samples_})
+void TileScratch::clear_samples() {
+    for (Plane3<float>* planes : {&shadowed_, &unshadowed_samples_})
         for (Plane<float>& p : *planes) p.fill(0.0f);
 }
 

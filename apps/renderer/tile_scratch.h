@@ -17,7 +17,7 @@ class TileScratch {
     [[nodiscard]] VisibilityView visibility();
     [[nodiscard]] SurfaceView surface();
     [[nodiscard]] LightSumsView sums();
-    void clear_sums();
+    void clear_samples();  // S_N and U_N, which the lights' rays add to
 
     raster::Scratch raster;
     shadow::RayScratch rays;
