@@ -184,7 +184,7 @@ void declare_options(CLI::App& command, RenderOptions& options) {
 }
 
 void interpret(RenderOptions& o) {
-    constexpr int kLargestSide = 32767;  // the rasterizer's guard band
+    constexpr int kLargestSide = 16384;  // as for a scene's film.size
     if (!o.size.empty()) {
         const std::vector<int> size = integers(o.size, 'x', 2);
         if (size.empty() || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide ||
