@@ -16,10 +16,10 @@
 // distance, in pixels stretched by the surface's slant, and not in metres; it serves for the depth
 // weight too, which would reject slanted floors. A filtered value is sum(w x) / sum(w) over
 // non-negative numbers: each of its operations is monotone also when rounded, and so 0 <= S_N <=
-// U_N survives it exactly. (Written as centre + sum(w (x - centre)) / sum(w), each pass may lift W by
-// 2 ulp, measured next to centres far brighter than their surroundings.) In return, a change within
-// the rounding error of such a sum counts as none, for S_N and U_N together: so constants pass
-// unchanged.
+// U_N survives it exactly. (Written as centre + sum(w (x - centre)) / sum(w), each pass may lift W
+// by 2 ulp, measured next to centres far brighter than their surroundings.) In return, a change
+// within the rounding error of such a sum counts as none, for S_N and U_N together: so constants
+// pass unchanged.
 
 namespace penumbra::denoise {
 
