@@ -226,6 +226,25 @@ TEST_CASE("triangles that cross the eye plane or cover the screen agree with ray
     check(scene, "around the eye");
 }
 
+TEST_CASE("tiles merge small triangles with those of their block in the scene's order") {
+    // Several chunks and instances with triangles of both kinds of bins.
+    TestScene scene(384, 320, look_at({0.1f, 0.2f, 2.5f}, {0, 0, 0}, 384, 320));
+    for (const std::uint32_t seed : {21u, 22u}) {
+        scene.add(soup(
+            {.seed = seed, .count = 9000, .spread = 1.5f, .smallest = 5e-3f, .largest = 0.05f}));
+        scene.add(
+            soup({.seed = seed + 10, .count = 60, .spread = 4, .smallest = 0.5f, .largest = 2}));
+    }
+    Mesh mixed =
+        soup({.seed = 40, .count = 9000, .spread = 1.5f, .smallest = 5e-3f, .largest = 0.05f});
+    for (std::uint32_t k = 0; k < 9000; k += 500)  // far behind, filling the screen
+        for (std::uint32_t j = 0; j < 3; ++j)
+            mixed.positions[3 * k + j] = Vec3f{j == 1 ? 90.0f : -30.0f, j == 2 ? 90.0f : -30.0f,
+                                               -9 + 1e-3f * static_cast<float>(k)};
+    scene.add(std::move(mixed));
+    check(scene, "mixed sizes");
+}
+
 TEST_CASE("millimetres, kilometres and places far from the origin agree with rays") {
     for (const float scale : {1e-3f, 1e3f}) {
         TestScene scene(256, 192, look_at(Vec3f{0.3f, 0.8f, 3} * scale, {0, 0, 0}, 256, 192));
