@@ -18,8 +18,8 @@ struct PixelEdge {
     I step_x, step_y;  // to the next pixel right, below
 };
 
-// In integers that hold the products: 64 bits for any snapped vertices, 32 where a, b and the
-// centre lie within 2^14 units of each other in x and y... see kMaxBatchExtent.
+// In integers that hold the products: 64 bits for any snapped vertices, 32 for those that
+// TriangleBatch lets through (kMaxBatchExtent).
 template <class I>
 PixelEdge<I> pixel_edge(I ax, I ay, I bx, I by, I center_x, I center_y) {
     const I dx = bx - ax;

@@ -46,7 +46,7 @@ class DepthTest {
         write(memory_.triangle + part.at, nearer, triangle.index);
     }
     void end_cell(int group) {
-        constexpr int kWritesBetween = 8;
+        constexpr int kWritesBetween = 8;  // cells; speed only: the image is the same for any
         if (++memory_.writes[group] >= kWritesBetween) refresh(group);
     }
 

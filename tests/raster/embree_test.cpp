@@ -232,8 +232,7 @@ TEST_CASE("tiles merge small triangles with those of their block in the scene's 
     for (const std::uint32_t seed : {21u, 22u}) {
         scene.add(soup(
             {.seed = seed, .count = 9000, .spread = 1.5f, .smallest = 5e-3f, .largest = 0.05f}));
-        scene.add(
-            soup({.seed = seed + 10, .count = 60, .spread = 4, .smallest = 0.5f, .largest = 2}));
+        scene.add(soup({.seed = seed + 10, .count = 60, .spread = 4, .smallest = 1, .largest = 6}));
     }
     Mesh mixed =
         soup({.seed = 40, .count = 9000, .spread = 1.5f, .smallest = 5e-3f, .largest = 0.05f});
