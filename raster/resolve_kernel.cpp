@@ -136,11 +136,10 @@ void resolve_group(const ResolveJob& job, const Group& group) {
         F(static_cast<float>(job.tile.x0 + target.x) + 0.5f) + simd::to_float(simd::iota<I>());
     const F y(static_cast<float>(job.tile.y0 + target.y) + 0.5f);
     const Vec3<F> direction = job.camera.direction(x, y);
-    const SurfacePoint<F> point =
-        surface_point(group.triangle, broadcast<F>(job.camera.eye), direction);
+    const SurfacePoint<F> point = surface_point(group.triangle, job.camera, direction);
     const Vec3<F> position = group.triangle.positions[0] + point.from_vertex;
     target.put(out.position, position);
-    target.put(out.depth, dot(point.from_eye, broadcast<F>(job.camera.forward)));
+    target.put(out.depth, point.depth);
 
     const TextureFootprint<F> footprint =
         texture_footprint(job.camera, group.triangle, point, direction);

@@ -24,6 +24,7 @@ struct SurfacePoint {
     Vec3<F> edge_1, edge_2;    // from vertex 0
     Vec3<F> from_vertex;       // vertex 0 -> point: small, where the triangle is, and so precise
     Vec3<F> from_eye;          // eye -> point
+    F depth;                   // along the view axis
     Vec3<F> view;              // unit, point -> eye
     Vec3<F> geometric_normal;  // unit, towards the viewer
     simd::MaskOf<F> is_front;  // the viewer sees the vertices counter-clockwise
@@ -40,10 +41,11 @@ Vec3<F> direction_or(const Vec3<F>& a, const Vec3<F>& otherwise) {
 }
 
 template <class F>
-SurfacePoint<F> surface_point(const SurfaceTriangle<F>& triangle, const Vec3<F>& eye,
+SurfacePoint<F> surface_point(const SurfaceTriangle<F>& triangle, const Camera& camera,
                               const Vec3<F>& direction) {
     const RelativeTriangle<F> relative =
-        relative_triangle(eye, triangle.positions[0], triangle.positions[1], triangle.positions[2]);
+        relative_triangle(broadcast<F>(camera.eye), triangle.positions[0], triangle.positions[1],
+                          triangle.positions[2]);
     SurfacePoint<F> point;
     point.plane = plane_equations(relative);
     point.weights = clamped_barycentrics(point.plane, direction);
@@ -51,6 +53,7 @@ SurfacePoint<F> surface_point(const SurfaceTriangle<F>& triangle, const Vec3<F>&
     point.edge_2 = relative.edge_2;
     point.from_vertex = fma(relative.edge_1, point.weights.b1, relative.edge_2 * point.weights.b2);
     point.from_eye = relative.vertex + point.from_vertex;
+    point.depth = clamped_distance(relative, point.plane, direction, broadcast<F>(camera.forward));
     point.view = direction_or(-point.from_eye, -direction);
     point.is_front = dot(point.plane.normal, relative.vertex) < F(0);
     const Vec3<F> unit = direction_or(point.plane.normal, point.view);

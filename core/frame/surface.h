@@ -4,8 +4,8 @@
 
 namespace penumbra {
 
-// The G-buffer, one plane per number. Where nothing is hit: `material` is kNothing, `depth` 1e10, the
-// rest 0.
+// The G-buffer, one plane per number. Where nothing is hit: ids are kNothing, `depth` 1e10, `emission`
+// the background, the rest 0.
 template <class T, class Id>
 struct SurfacePlaneViews {
     PlaneView3<T> position;          // world, metres

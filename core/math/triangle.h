@@ -34,6 +34,20 @@ PlaneEquations<F> plane_equations(const RelativeTriangle<F>& t) {
     return {cross(t.edge_1, t.edge_2), cross(t.edge_2, t.vertex), cross(t.vertex, t.edge_1)};
 }
 
+// How far along `direction` the line meets the triangle's plane, held between the triangle's nearest
+// and farthest vertex; in lengths of `direction`, whose component along `axis` is 1. On thin
+// triangles it has digits that the weights, differences of nearly equal numbers, have lost.
+template <class F>
+F clamped_distance(const RelativeTriangle<F>& t, const PlaneEquations<F>& plane,
+                   const Vec3<F>& direction, const Vec3<F>& axis) {
+    const F at_0 = dot(t.vertex, axis);
+    const F at_1 = dot(t.vertex + t.edge_1, axis);
+    const F at_2 = dot(t.vertex + t.edge_2, axis);
+    const F distance = dot(plane.normal, t.vertex) / dot(plane.normal, direction);
+    return simd::clamp(distance, simd::min(simd::min(at_0, at_1), at_2),
+                       simd::max(simd::max(at_0, at_1), at_2));
+}
+
 // Weights of vertices 1 and 2; what is left of 1 is vertex 0's.
 template <class F>
 struct Barycentrics {
