@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/cli/option_checks.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/render_options.h"
 #include "apps/cli/signals.h"
@@ -41,6 +42,19 @@ void require_file_per_frame(const char* option, const std::string& pattern,
                                      option, frame_count, pattern));
 }
 
+void require_files_of_their_own(const RenderOptions& options, const Scene& scene,
+                                const std::vector<int>& frames) {
+    std::vector<PlannedFile> outputs;
+    for (const int frame : frames) {
+        outputs.emplace_back("--output", renderer::expand_pattern(options.output.pattern, frame));
+        if (options.output.preview)
+            outputs.emplace_back("--preview",
+                                 renderer::expand_pattern(*options.output.preview, frame));
+    }
+    if (!options.statistics.empty()) outputs.emplace_back("--stats", options.statistics);
+    require_distinct(outputs, scene.files);
+}
+
 void say_what_would_happen(const RenderOptions& options, const std::vector<int>& frames) {
     for (const int frame : frames)
         fmt::print("{}\n", renderer::expand_pattern(options.output.pattern, frame));
@@ -68,6 +82,7 @@ int render(RenderOptions& options) {
     require_file_per_frame("--output", options.output.pattern, frames.size());
     if (options.output.preview)
         require_file_per_frame("--preview", *options.output.preview, frames.size());
+    require_files_of_their_own(options, scene, frames);
     renderer::check_settings(scene, options.image, options.execution);
     if (options.dry_run) {
         say_what_would_happen(options, frames);
@@ -88,7 +103,10 @@ std::shared_ptr<RenderOptions> add_render_command(CLI::App& app, int& exit_code)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "Render frames to EXR");
     declare_options(*command, *options);
-    command->callback([options, &exit_code] { exit_code = render(*options); });
+    command->callback([options, command, &exit_code] {
+        refuse_empty_values(*command);
+        exit_code = render(*options);
+    });
     return options;
 }
 

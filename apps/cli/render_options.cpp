@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/option_checks.h"
 #include "core/error.h"
 
 namespace penumbra::cli {
@@ -101,9 +102,7 @@ void declare_filter(CLI::App& command, RenderOptions& o) {
               "How the variations of the shadow along lines through a pixel become one number");
     const auto number = [&](const char* option, auto& target, double low, double high,
                             const char* help) {
-        command.add_option(option, target, help)
-            ->check(CLI::Range(low, high))
-            ->capture_default_str();
+        command.add_option(option, target, help)->check(in_range(low, high))->capture_default_str();
     };
     number("--noise-radius", noise.radius, 2, denoise::kMaxLineRadius, "Of those lines, in pixels");
     number("--noise-full", noise.full_noise, 1e-3, 1e3,
@@ -126,9 +125,9 @@ void declare_how(CLI::App& command, RenderOptions& o) {
     command
         .add_option("--spp", o.image.samples_per_pixel,
                     "Shadow rays per light and pixel, 1 to 64 [the scene's, else 1]")
-        ->check(CLI::Range(1, 64));
+        ->check(in_range(1, 64));
     command.add_option("--aa", o.image.passes, "Jittered passes per frame, 1 to 256")
-        ->check(CLI::Range(1, 256))
+        ->check(in_range(1, 256))
         ->capture_default_str();
     add_words(command, "--denoise", o.denoise, kDenoisers, "How the shadow is filtered");
     declare_filter(command, o);
@@ -136,7 +135,7 @@ void declare_how(CLI::App& command, RenderOptions& o) {
         .add_option("--light-tolerance", o.image.light_tolerance,
                     "Lights whose bounds add up to at most this share of the others' are left out "
                     "per tile; 0 leaves out none")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(in_range(0.0, 1.0))
         ->capture_default_str();
     command.add_option("--seed", o.image.seed, "Seed of the random numbers")->capture_default_str();
 }
@@ -155,7 +154,7 @@ void declare_output(CLI::App& command, RenderOptions& o) {
     command.add_option("--preview", o.preview,
                        "Tone-mapped PNG beside each frame, a pattern like --output's");
     command.add_option("--exposure", o.output.exposure, "Of the previews, in EV")
-        ->check(CLI::Range(-100.0, 100.0))
+        ->check(in_range(-100.0, 100.0))
         ->capture_default_str();
     command.add_option("--stats", o.statistics,
                        "Write times and counts per frame to this JSON file");
@@ -168,7 +167,7 @@ void declare_execution(CLI::App& command, RenderOptions& o) {
     command
         .add_option("--threads", o.execution.threads,
                     "Threads; changes no pixel [what affinity, cgroup quota and Slurm allow]")
-        ->check(CLI::Range(1, 1024));
+        ->check(in_range(1, 1024));
     add_words(command, "--isa", o.isa, kIsas, "Instruction set of the kernels; changes no pixel");
     add_words(command, "--trace-isa", o.trace_isa, kTraceIsas,
               "Instruction set of the ray tracer; another one may change one ray in a million");

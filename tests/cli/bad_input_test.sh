@@ -128,6 +128,15 @@ bad_option "no threads" "--threads" --threads 0
 bad_option "an unknown compression" "--compression" --compression lzma
 bad_option "an unknown instruction set" "--isa" --isa neon
 bad_option "an unknown instruction set of the tracer" "--trace-isa" --trace-isa bogus
+bad_option "an exposure that is no number" "--exposure" --exposure nan
+bad_option "a filter constant that is no number" "--filter-gain" --filter-gain nan
+bad_option "an empty frame list" "--frames" -f ""
+bad_option "an empty file of statistics" "--stats" --stats ""
+check "an empty scene name" refuses 2 "SCENE" "$penumbra" render ""
+bad_option "a frame on its scene" "--output" -o scene.json
+bad_option "a frame on its model" "--output" -o ./ok.obj
+bad_option "statistics on a frame" "--stats" --stats ./x.exr
+bad_option "frames on each other" "--output" -f 1 -o x.exr --preview x.exr
 printf '\x76\x2f\x31\x01' >stub.exr
 check "info on a truncated EXR" refuses 2 "stub.exr" "$penumbra" info stub.exr
 check "info on nothing" refuses 2 "nothing.exr" "$penumbra" info nothing.exr

@@ -1,0 +1,53 @@
+#include "apps/cli/option_checks.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "core/error.h"
+
+namespace penumbra::cli {
+namespace {
+
+// One name for a file, whatever links and dots lead to it.
+std::string identity(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+    return (error ? std::filesystem::absolute(path, error) : canonical).string();
+}
+
+}  // namespace
+
+CLI::Validator in_range(double low, double high) {
+    return CLI::Validator(
+        [low, high](const std::string& text) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+            return fmt::format("expected a number from {} to {}, got \"{}\"", low, high, text);
+        },
+        fmt::format("{} to {}", low, high));
+}
+
+void refuse_empty_values(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& value : option->results())
+            if (value.empty())
+                throw InputError(
+                    fmt::format("{}: expected a value, got an empty text", option->get_name()));
+}
+
+void require_distinct(const std::vector<PlannedFile>& outputs,
+                      const std::vector<std::filesystem::path>& inputs) {
+    std::map<std::string, std::string> taken;  // identity -> who has it
+    for (const std::filesystem::path& input : inputs)
+        taken.emplace(identity(input), "an input of the scene");
+    for (const auto& [option, path] : outputs) {
+        const auto [place, is_new] = taken.emplace(identity(path), "written by " + option);
+        if (!is_new)
+            throw InputError(fmt::format(
+                "{}: expected a file of its own, but {} is {}", option, path.string(),
+                place->second == "written by " + option ? "named twice" : place->second));
+    }
+}
+
+}  // namespace penumbra::cli

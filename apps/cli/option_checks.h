@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace penumbra::cli {
+
+// A number from low to high; refuses NaN, which CLI::Range lets pass.
+[[nodiscard]] CLI::Validator in_range(double low, double high);
+
+// Throws InputError for an option or argument that was given as an empty text: an unset variable of
+// a script must not mean "not given".
+void refuse_empty_values(const CLI::App& command);
+
+// A file that is going to be written, and the option that says so.
+using PlannedFile = std::pair<std::string, std::filesystem::path>;
+
+// Throws InputError if two of the files are the same, or one is among the inputs.
+void require_distinct(const std::vector<PlannedFile>& outputs,
+                      const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace penumbra::cli
