@@ -40,8 +40,8 @@ class OutputError : public std::runtime_error {
 #if defined(NDEBUG)
 #define PENUMBRA_ASSERT(condition, ...) static_cast<void>(0)
 #else
-#define PENUMBRA_ASSERT(condition, ...)                                                      \
-    ((condition) ? static_cast<void>(0)                                                      \
-                 : ::penumbra::assertion_failed(#condition, __FILE__, __LINE__,              \
+#define PENUMBRA_ASSERT(condition, ...)                                         \
+    ((condition) ? static_cast<void>(0)                                         \
+                 : ::penumbra::assertion_failed(#condition, __FILE__, __LINE__, \
                                                 ::fmt::format(__VA_ARGS__)))
 #endif

@@ -10,18 +10,19 @@ namespace penumbra {
 // left. A point at view-space (right, up, forward) = (a, b, z), z > 0, falls on pixel position
 //   x = center_x + focal * a / z,   y = center_y - focal * b / z.
 struct Camera {
-    Vec3f eye;                   // world
-    Vec3f right, up, forward;    // orthonormal; right = forward x up
-    float focal = 1;             // pixels; pixels are square
-    float center_x = 0;          // pixels: half the size, plus the sub-pixel jitter of an --aa pass
+    Vec3f eye;                 // world
+    Vec3f right, up, forward;  // orthonormal; right = forward x up
+    float focal = 1;           // pixels; pixels are square
+    float center_x = 0;        // pixels: half the size, plus the sub-pixel jitter of an --aa pass
     float center_y = 0;
-    float near_distance = 0.01f; // along `forward`, metres
+    float near_distance = 0.01f;  // along `forward`, metres
 
     // (right, up, forward) coordinates of a world point.
     template <class F>
     [[nodiscard]] Vec3<F> view_from_world(const Vec3<F>& p) const {
         const Vec3<F> d = p - broadcast<F>(eye);
-        return {dot(d, broadcast<F>(right)), dot(d, broadcast<F>(up)), dot(d, broadcast<F>(forward))};
+        return {dot(d, broadcast<F>(right)), dot(d, broadcast<F>(up)),
+                dot(d, broadcast<F>(forward))};
     }
     // The direction through a pixel position, scaled so that its view depth is 1.
     template <class F>

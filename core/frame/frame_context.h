@@ -12,7 +12,7 @@ namespace penumbra {
 struct FrameContext {
     int width = 0, height = 0;  // the full frame, whatever the crop
     int frame = 0;
-    int pass = 0;               // of --aa passes
+    int pass = 0;  // of --aa passes
     std::uint32_t seed = 0;
     simd::Isa isa = simd::Isa::kAvx2;
 };

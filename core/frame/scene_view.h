@@ -11,19 +11,19 @@
 
 namespace penumbra {
 
-// A model at this frame's time. Positions and normals are in world space, so that the rasterizer, the
-// resolve and the occluders see the same floats.
+// A model at this frame's time. Positions and normals are in world space, so that the rasterizer,
+// the resolve and the occluders see the same floats.
 struct Instance {
     const Mesh* mesh = nullptr;
     std::span<const std::uint32_t> materials;  // slot -> index into SceneView::materials
-    std::vector<Vec3f> positions;              // world; one more element than vertices (read by wide loads)
-    std::vector<Vec3f> normals;                // world, unit
+    std::vector<Vec3f> positions;  // world; one more element than vertices (read by wide loads)
+    std::vector<Vec3f> normals;    // world, unit
     Affine3f world_from_object;
     Affine3f previous_from_current;  // world position now -> world position in the previous frame
     bool is_animated = false;        // has a track that moves at any time of the scene
-    bool moved = false;              // world_from_object differs from the previous evaluated frame's
-    // The transform mirrors: the outside of a face (the side that an emissive one emits to) is then the
-    // side from which its world vertices run clockwise. Normals are right already.
+    bool moved = false;  // world_from_object differs from the previous evaluated frame's
+    // The transform mirrors: the outside of a face (the side that an emissive one emits to) is then
+    // the side from which its world vertices run clockwise. Normals are right already.
     bool flips_winding = false;
     Vec3f bounds_min{}, bounds_max{};  // of the positions, world
 };
@@ -37,11 +37,12 @@ struct PolygonLight {
     float area = 0;  // square metres
     Vec3f radiance;
     bool two_sided = false;
-    bool visible = true;       // drawn by the lights' own pass; false for emitters: they are geometry
+    bool visible = true;  // drawn by the lights' own pass; false for emitters: they are geometry
     bool is_geometry = false;  // an emissive face of a model
 };
 
-// Everything the passes of a frame read; owns the evaluated positions. Refer to it by const reference.
+// Everything the passes of a frame read; owns the evaluated positions. Refer to it by const
+// reference.
 struct SceneView {
     std::span<const Material> materials;
     std::span<const Texture> textures;
@@ -54,8 +55,9 @@ struct SceneView {
 };
 
 struct EvaluateTimes {
-    double now = 0;       // seconds
-    double previous = 0;  // of frame f - 1 of the scene's grid; equal to `now` for the first frame's motion 0
+    double now = 0;  // seconds
+    double previous =
+        0;  // of frame f - 1 of the scene's grid; equal to `now` for the first frame's motion 0
 };
 
 struct FilmSize {

@@ -4,21 +4,24 @@
 
 namespace penumbra {
 
-// The G-buffer, one plane per number. Where nothing is hit: ids are kNothing, `depth` 1e10, `emission`
-// the background, the rest 0.
+// The G-buffer, one plane per number. Where nothing is hit: ids are kNothing, `depth` 1e10,
+// `emission` the background, the rest 0.
 template <class T, class Id>
 struct SurfacePlaneViews {
-    PlaneView3<T> position;          // world, metres
-    PlaneView3<T> shadow_origin;     // position, moved off smooth-shaded facets (Hanika 2021); where shadow rays start
+    PlaneView3<T> position;       // world, metres
+    PlaneView3<T> shadow_origin;  // position, moved off smooth-shaded facets (Hanika 2021); where
+                                  // shadow rays start
     PlaneView3<T> geometric_normal;  // unit, world, towards the viewer
-    PlaneView3<T> normal;            // shading normal: unit, world, n.v > 0 and above the geometric horizon where possible
+    PlaneView3<T> normal;  // shading normal: unit, world, n.v > 0 and above the geometric horizon
+                           // where possible
     PlaneView3<T> base_color;
-    PlaneView<T> roughness;          // >= kMinimumRoughness
+    PlaneView<T> roughness;  // >= kMinimumRoughness
     PlaneView<T> metallic;
-    PlaneView<T> dielectric_f0;      // ((ior - 1) / (ior + 1))^2
-    PlaneView3<T> emission;          // radiance of the surface itself (emissive faces on their emitting side); the background where nothing is hit
-    PlaneView<T> depth;              // along the view axis, metres
-    PlaneView<T> motion_x, motion_y; // pixel now - pixel in the previous frame
+    PlaneView<T> dielectric_f0;  // ((ior - 1) / (ior + 1))^2
+    PlaneView3<T> emission;      // radiance of the surface itself (emissive faces on their emitting
+                                 // side); the background where nothing is hit
+    PlaneView<T> depth;          // along the view axis, metres
+    PlaneView<T> motion_x, motion_y;  // pixel now - pixel in the previous frame
     PlaneView<Id> instance, triangle, material;
 };
 using SurfaceView = SurfacePlaneViews<float, std::uint32_t>;

@@ -18,8 +18,9 @@ struct PixelRect {
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
-// One tile: pixel (x0 + i, y0 + j) of the full frame is pixel (i, j) of the tile's views. Passes compute
-// all kTileSize x kTileSize pixels, also those past the frame's edge; views have room for them.
+// One tile: pixel (x0 + i, y0 + j) of the full frame is pixel (i, j) of the tile's views. Passes
+// compute all kTileSize x kTileSize pixels, also those past the frame's edge; views have room for
+// them.
 struct Tile {
     int x0 = 0, y0 = 0;  // multiples of kTileSize, pixels of the full frame
     int index = 0;       // among the tiles of the frame's window, row by row

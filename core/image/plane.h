@@ -26,11 +26,7 @@ struct PlaneView {
     [[nodiscard]] T& at(int x, int y) const { return row(y)[x]; }
     [[nodiscard]] PlaneView offset(int x, int y) const { return {row(y) + x, stride}; }
     [[nodiscard]] explicit operator bool() const { return origin != nullptr; }
-    operator PlaneView<const T>() const
-        requires(!std::is_const_v<T>)
-    {
-        return {origin, stride};
-    }
+    operator PlaneView<const T>() const requires(!std::is_const_v<T>) { return {origin, stride}; }
 };
 
 // Three planes, for colours and vectors.
@@ -46,10 +42,12 @@ template <class T>
 class Plane {
   public:
     Plane() = default;
-    // Zero-filled. The padding belongs to the allocation, rows and columns alike: height is padded to
-    // a multiple of `kRowPadding` too, so that whole tiles can be written everywhere.
+    // Zero-filled. The padding belongs to the allocation, rows and columns alike: height is padded
+    // to a multiple of `kRowPadding` too, so that whole tiles can be written everywhere.
     Plane(int width, int height)
-        : width_(width), height_(height), stride_(padded(width)),
+        : width_(width),
+          height_(height),
+          stride_(padded(width)),
           data_(allocate(static_cast<std::size_t>(padded(width)) * padded(height))) {}
 
     [[nodiscard]] bool empty() const { return data_ == nullptr; }

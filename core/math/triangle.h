@@ -34,9 +34,9 @@ PlaneEquations<F> plane_equations(const RelativeTriangle<F>& t) {
     return {cross(t.edge_1, t.edge_2), cross(t.edge_2, t.vertex), cross(t.vertex, t.edge_1)};
 }
 
-// How far along `direction` the line meets the triangle's plane, held between the triangle's nearest
-// and farthest vertex; in lengths of `direction`, whose component along `axis` is 1. On thin
-// triangles it has digits that the weights, differences of nearly equal numbers, have lost.
+// How far along `direction` the line meets the triangle's plane, held between the triangle's
+// nearest and farthest vertex; in lengths of `direction`, whose component along `axis` is 1. On
+// thin triangles it has digits that the weights, differences of nearly equal numbers, have lost.
 template <class F>
 F clamped_distance(const RelativeTriangle<F>& t, const PlaneEquations<F>& plane,
                    const Vec3<F>& direction, const Vec3<F>& axis) {

@@ -19,10 +19,18 @@ template <class F>
 struct Vec3 {
     F x, y, z;
 
-    friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Vec3 operator*(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-    friend Vec3 operator/(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+    friend Vec3 operator+(const Vec3& a, const Vec3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend Vec3 operator-(const Vec3& a, const Vec3& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend Vec3 operator*(const Vec3& a, const Vec3& b) {
+        return {a.x * b.x, a.y * b.y, a.z * b.z};
+    }
+    friend Vec3 operator/(const Vec3& a, const Vec3& b) {
+        return {a.x / b.x, a.y / b.y, a.z / b.z};
+    }
     friend Vec3 operator*(const Vec3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
     friend Vec3 operator*(F s, const Vec3& a) { return a * s; }
     friend Vec3 operator/(const Vec3& a, F s) { return {a.x / s, a.y / s, a.z / s}; }

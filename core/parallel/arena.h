@@ -8,8 +8,8 @@
 
 namespace penumbra::parallel {
 
-// Threads to use when nobody says: the least of what the affinity mask, the cgroup quota (v1 and v2)
-// and SLURM_CPUS_PER_TASK allow; at least 1.
+// Threads to use when nobody says: the least of what the affinity mask, the cgroup quota (v1 and
+// v2) and SLURM_CPUS_PER_TASK allow; at least 1.
 [[nodiscard]] int default_thread_count();
 
 // Sets flush-to-zero and denormals-are-zero for its lifetime: part of "same input, same bits".
@@ -35,8 +35,9 @@ class Arena {
     [[nodiscard]] int threads() const;
 
     // Calls body(index, worker) once for each index in [0, count), in any order; worker in
-    // [0, threads()) is never used by two calls at once: it selects scratch memory. Returns when all
-    // are done; rethrows the first exception. Where `cancelled` becomes true, the rest is skipped.
+    // [0, threads()) is never used by two calls at once: it selects scratch memory. Returns when
+    // all are done; rethrows the first exception. Where `cancelled` becomes true, the rest is
+    // skipped.
     void for_each(int count, const std::function<void(int index, int worker)>& body,
                   const std::atomic<bool>* cancelled = nullptr) const;
 

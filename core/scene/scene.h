@@ -11,8 +11,8 @@
 #include "core/scene/texture.h"
 #include "core/scene/track.h"
 
-// A scene as it was read and checked: every index is valid, every number finite. Time enters only in
-// evaluate() (core/frame/scene_view.h). Right-handed, y up, metres; radiance in W / (sr m^2) per
+// A scene as it was read and checked: every index is valid, every number finite. Time enters only
+// in evaluate() (core/frame/scene_view.h). Right-handed, y up, metres; radiance in W / (sr m^2) per
 // scene-linear Rec. 709 channel.
 
 namespace penumbra {
@@ -35,7 +35,8 @@ struct Mesh {
 
 inline constexpr int kNoTexture = -1;
 
-// Lambert + GGX, metallic-roughness as in glTF 2.0. Maps multiply their factor, except the normal map.
+// Lambert + GGX, metallic-roughness as in glTF 2.0. Maps multiply their factor, except the normal
+// map.
 struct Material {
     std::string name;
     Vec3f base_color{0.5f, 0.5f, 0.5f};  // each in [0, 1]
@@ -84,7 +85,7 @@ struct Emitter {
 
 struct CameraTracks {
     Vec3Track eye, target, up;
-    FloatTrack vertical_field_of_view;  // degrees, in (0, 180)
+    FloatTrack vertical_field_of_view;   // degrees, in (0, 180)
     std::optional<float> near_distance;  // metres; by default relative to the scene's size
 };
 
@@ -111,9 +112,10 @@ struct Scene {
     std::vector<Emitter> emitters;
     Vec3f background{0, 0, 0};  // radiance where no surface is hit
     Animation animation;
-    int samples_per_pixel = 1;                          // the scene file's render.spp
-    std::vector<std::filesystem::path> files;           // all that was read, for the digest, in reading order
-    std::vector<std::string> warnings;                  // one line each, without "warning:"
+    int samples_per_pixel = 1;  // the scene file's render.spp
+    std::vector<std::filesystem::path>
+        files;                          // all that was read, for the digest, in reading order
+    std::vector<std::string> warnings;  // one line each, without "warning:"
 };
 
 }  // namespace penumbra

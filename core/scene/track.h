@@ -27,14 +27,17 @@ using RotationTrack = Track<glm::dquat>;  // neighbouring keys less than 180 deg
 
 [[nodiscard]] float evaluate(const FloatTrack& track, double time);
 [[nodiscard]] Vec3f evaluate(const Vec3Track& track, double time);
-[[nodiscard]] glm::dquat evaluate(const RotationTrack& track, double time);  // spherical, shortest arc
+[[nodiscard]] glm::dquat evaluate(const RotationTrack& track,
+                                  double time);  // spherical, shortest arc
 
 // T * R * S.
 struct TransformTrack {
     Vec3Track translate, scale;
     RotationTrack rotate;
 
-    [[nodiscard]] bool moves() const { return translate.moves() || scale.moves() || rotate.moves(); }
+    [[nodiscard]] bool moves() const {
+        return translate.moves() || scale.moves() || rotate.moves();
+    }
 };
 [[nodiscard]] Affine3f evaluate(const TransformTrack& track, double time);
 

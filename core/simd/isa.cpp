@@ -16,9 +16,12 @@ bool is_supported(Isa isa) {
 Isa best_isa() {
     if (is_supported(Isa::kAvx512)) return Isa::kAvx512;
     if (is_supported(Isa::kAvx2)) return Isa::kAvx2;
-    throw InputError("this processor has neither AVX2 with FMA nor AVX-512; penumbra needs one of them");
+    throw InputError(
+        "this processor has neither AVX2 with FMA nor AVX-512; penumbra needs one of them");
 }
 
-std::string_view name(Isa isa) { return isa == Isa::kAvx512 ? "avx512" : "avx2"; }
+std::string_view name(Isa isa) {
+    return isa == Isa::kAvx512 ? "avx512" : "avx2";
+}
 
 }  // namespace penumbra::simd

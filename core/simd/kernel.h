@@ -3,7 +3,8 @@
 #include "core/simd/lanes.h"
 
 // For *_kernel.cpp only: the lane types of the instruction set this unit is compiled for. The build
-// defines PENUMBRA_ISA as `avx2` or `avx512`; kernels put their entry points in penumbra::PENUMBRA_ISA.
+// defines PENUMBRA_ISA as `avx2` or `avx512`; kernels put their entry points in
+// penumbra::PENUMBRA_ISA.
 
 namespace penumbra::avx2 {
 using LaneIsa = simd::Avx2;

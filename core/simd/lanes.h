@@ -55,8 +55,8 @@ struct Integer {
     Integer(T x) : v(x) {}
     Integer(Batch b) : v(b) {}
     template <class U>
-        requires(!std::is_same_v<U, T>)
-    explicit Integer(Integer<Isa, U> other) : v(xsimd::bitwise_cast<Batch>(other.v)) {}
+    requires(!std::is_same_v<U, T>) explicit Integer(Integer<Isa, U> other)
+        : v(xsimd::bitwise_cast<Batch>(other.v)) {}
 
     friend Integer operator+(Integer a, Integer b) { return a.v + b.v; }
     friend Integer operator-(Integer a, Integer b) { return a.v - b.v; }
@@ -149,27 +149,36 @@ concept ScalarReal = std::is_floating_point_v<F>;
 
 // ---- scalar definitions ----------------------------------------------------------------------
 
-inline bool any(bool m) { return m; }
-inline bool all(bool m) { return m; }
-inline bool none(bool m) { return !m; }
-inline std::uint32_t bits(bool m) { return m ? 1u : 0u; }
+inline bool any(bool m) {
+    return m;
+}
+inline bool all(bool m) {
+    return m;
+}
+inline bool none(bool m) {
+    return !m;
+}
+inline std::uint32_t bits(bool m) {
+    return m ? 1u : 0u;
+}
 
 template <class T>
-    requires std::is_arithmetic_v<T>
-T select(bool m, T a, std::type_identity_t<T> b) {
+requires std::is_arithmetic_v<T> T select(bool m, T a, std::type_identity_t<T> b) {
     return m ? a : b;
 }
-inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+inline float fma(float a, float b, float c) {
+    return __builtin_fmaf(a, b, c);
+}
+inline double fma(double a, double b, double c) {
+    return __builtin_fma(a, b, c);
+}
 // As minps and maxps: the second operand where either is NaN or both are zeros.
 template <class T>
-    requires std::is_arithmetic_v<T>
-T min(T a, std::type_identity_t<T> b) {
+requires std::is_arithmetic_v<T> T min(T a, std::type_identity_t<T> b) {
     return a < b ? a : b;
 }
 template <class T>
-    requires std::is_arithmetic_v<T>
-T max(T a, std::type_identity_t<T> b) {
+requires std::is_arithmetic_v<T> T max(T a, std::type_identity_t<T> b) {
     return a > b ? a : b;
 }
 template <ScalarReal T>
@@ -204,11 +213,21 @@ std::int32_t to_int(T a) {
     return a >= T(-2147483648.0) && a < T(2147483648.0) ? static_cast<std::int32_t>(a)
                                                         : std::int32_t{-2147483647 - 1};
 }
-inline float to_float(std::int32_t a) { return static_cast<float>(a); }
-inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
-inline std::uint32_t as_uint(float a) { return std::bit_cast<std::uint32_t>(a); }
-inline float as_float(std::int32_t a) { return std::bit_cast<float>(a); }
-inline float as_float(std::uint32_t a) { return std::bit_cast<float>(a); }
+inline float to_float(std::int32_t a) {
+    return static_cast<float>(a);
+}
+inline std::int32_t as_int(float a) {
+    return std::bit_cast<std::int32_t>(a);
+}
+inline std::uint32_t as_uint(float a) {
+    return std::bit_cast<std::uint32_t>(a);
+}
+inline float as_float(std::int32_t a) {
+    return std::bit_cast<float>(a);
+}
+inline float as_float(std::uint32_t a) {
+    return std::bit_cast<float>(a);
+}
 
 // ---- the same for lanes ----------------------------------------------------------------------
 
@@ -330,7 +349,7 @@ V load(const auto* from) {
         return V::Batch::load_unaligned(from);
 }
 template <class T>
-    requires std::is_arithmetic_v<T>
+requires std::is_arithmetic_v<T>
 void store(T* to, T value) {
     *to = value;
 }
@@ -344,8 +363,12 @@ void store(T* to, Integer<Isa, T> value) {
 }
 
 // base[index] per lane; every lane's index must be valid.
-inline float gather(const float* base, std::int32_t index) { return base[index]; }
-inline std::int32_t gather(const std::int32_t* base, std::int32_t index) { return base[index]; }
+inline float gather(const float* base, std::int32_t index) {
+    return base[index];
+}
+inline std::int32_t gather(const std::int32_t* base, std::int32_t index) {
+    return base[index];
+}
 template <class Isa>
 Float<Isa> gather(const float* base, Integer<Isa, std::int32_t> index) {
     return Float<Isa>::Batch::gather(base, index.v);
@@ -355,8 +378,8 @@ Integer<Isa, std::int32_t> gather(const std::int32_t* base, Integer<Isa, std::in
     return Integer<Isa, std::int32_t>::Batch::gather(base, index.v);
 }
 #if defined(__AVX512F__)
-// xsimd 8.1 gathers 16 lanes element by element through memory; the instruction takes 5.1 ns instead
-// of 7.4 (Zen 5, level 1 cache). For 8 lanes both take 3.0.
+// xsimd 8.1 gathers 16 lanes element by element through memory; the instruction takes 5.1 ns
+// instead of 7.4 (Zen 5, level 1 cache). For 8 lanes both take 3.0.
 inline Float<Avx512> gather(const float* base, Integer<Avx512, std::int32_t> index) {
     return Float<Avx512>::Batch(_mm512_i32gather_ps(index.v, base, 4));
 }

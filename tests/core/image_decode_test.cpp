@@ -6,10 +6,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/image/zlib_stream.h"
 #include "core/image/exr.h"
 #include "core/image/file_reader.h"
 #include "core/image/srgb.h"
+#include "core/image/zlib_stream.h"
 #include "tests/core/image_testing.h"
 
 using namespace penumbra;

@@ -83,7 +83,8 @@ TEST_CASE("positions lie on the pixel's ray and depth is measured along the view
         ++pixels;
     });
     CHECK(farthest < 0.01);  // up to the snapping of silhouettes
-    // A position is clamped to its triangle, which slides it along a slanted one; depth is the ray's.
+    // A position is clamped to its triangle, which slides it along a slanted one; depth is the
+    // ray's.
     CHECK(slid < pixels / 100);
     CHECK(depth_error < 1e-4);
 }
