@@ -49,6 +49,7 @@ DrawnLight seen_from_eye(const ShadedLight& light, const Vec3f& eye, double in_f
     drawn.normal = to_float(to_double(shape.normal) * side);
     drawn.plane_distance = static_cast<float>(-in_front * side);
     drawn.radiance = light.radiance;
+    drawn.previous_from_current = light.previous_from_current;
     return drawn;
 }
 

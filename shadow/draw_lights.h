@@ -10,7 +10,7 @@ namespace penumbra::shadow {
 // emission is its radiance, depth and position are its own, the normals turn to the viewer, base
 // colour, roughness, metallic and F0 are 0 and the ids are kNothing, so that nothing is shaded
 // there. A one-sided light is invisible from behind. Of several lights the nearest wins, at equal
-// depth the first. The motion is the camera's, as for a light that rests in the world.
+// depth the first. The motion is the camera's and the light's.
 void draw_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
                  const Tile& tile, const SurfaceView& surface);
 

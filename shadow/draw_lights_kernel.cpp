@@ -32,9 +32,11 @@ struct Shown {
     F depth;
     Vec3<F> radiance{F(0), F(0), F(0)};
     Vec3<F> normal{F(0), F(0), F(0)};
+    Vec3<F> position{F(0), F(0), F(0)};         // world
+    Vec3<F> position_before{F(0), F(0), F(0)};  // in the previous frame
 };
 
-void show(const shadow::DrawnLight& light, const Vec3<F>& direction, float near_distance,
+void show(const shadow::DrawnLight& light, const Camera& camera, const Vec3<F>& direction,
           Shown& shown) {
     M inside = M(true);
     for (int i = 0; i < light.edge_count; ++i)
@@ -43,11 +45,15 @@ void show(const shadow::DrawnLight& light, const Vec3<F>& direction, float near_
     // Directions advance by 1 along the view axis, so the ray's parameter is the depth.
     const F depth = F(light.plane_distance) / dot(broadcast<F>(light.normal), direction);
     const M nearer =
-        inside & (depth >= F(near_distance)) & (depth * F(1 - kCoplanarBias) < shown.depth);
+        inside & (depth >= F(camera.near_distance)) & (depth * F(1 - kCoplanarBias) < shown.depth);
     const M wins = nearer & ((!shown.seen) | (depth < shown.depth));
     shown.depth = simd::select(wins, depth, shown.depth);
     shown.radiance = select(wins, broadcast<F>(light.radiance), shown.radiance);
     shown.normal = select(wins, broadcast<F>(light.normal), shown.normal);
+    const Vec3<F> position = fma(direction, depth, broadcast<F>(camera.eye));
+    shown.position = select(wins, position, shown.position);
+    shown.position_before = select(wins, broadcast<F>(light.previous_from_current).point(position),
+                                   shown.position_before);
     shown.seen |= wins;
 }
 
@@ -57,13 +63,12 @@ Vec2<F> project(const Camera& camera, const Vec3<F>& view) {
             simd::fma(-view.y, scale, F(camera.center_y))};
 }
 
-void write(const shadow::DrawJob& job, int x, int y, const Vec3<F>& direction, const Shown& shown) {
+void write(const shadow::DrawJob& job, int x, int y, const Shown& shown) {
     const SurfaceView& s = job.surface;
     const M m = shown.seen;
     const Vec3<F> zero{F(0), F(0), F(0)};
-    const Vec3<F> position = fma(direction, shown.depth, broadcast<F>(job.camera.eye));
-    put(s.position, x, y, m, position);
-    put(s.shadow_origin, x, y, m, position);
+    put(s.position, x, y, m, shown.position);
+    put(s.shadow_origin, x, y, m, shown.position);
     put(s.geometric_normal, x, y, m, shown.normal);
     put(s.normal, x, y, m, shown.normal);
     put(s.base_color, x, y, m, zero);
@@ -73,9 +78,9 @@ void write(const shadow::DrawJob& job, int x, int y, const Vec3<F>& direction, c
     put(s.emission, x, y, m, shown.radiance);
     put(s.depth, x, y, m, shown.depth);
     // Both from the rounded position, like the motion of surfaces: what rests moves by exactly 0.
-    Vec3<F> view_before = job.previous_camera.view_from_world(position);
+    Vec3<F> view_before = job.previous_camera.view_from_world(shown.position_before);
     view_before.z = simd::max(view_before.z, F(job.previous_camera.near_distance));
-    const Vec2<F> motion = project(job.camera, job.camera.view_from_world(position)) -
+    const Vec2<F> motion = project(job.camera, job.camera.view_from_world(shown.position)) -
                            project(job.previous_camera, view_before);
     put(s.motion_x, x, y, m, motion.x);
     put(s.motion_y, x, y, m, motion.y);
@@ -95,8 +100,8 @@ void draw_lights_in_tile(const shadow::DrawJob& job) {
             Shown shown;
             shown.depth = simd::load<F>(job.surface.depth.row(y) + x);
             for (int i = 0; i < job.light_count; ++i)
-                show(job.lights[i], direction, job.camera.near_distance, shown);
-            if (simd::any(shown.seen)) write(job, x, y, direction, shown);
+                show(job.lights[i], job.camera, direction, shown);
+            if (simd::any(shown.seen)) write(job, x, y, shown);
         }
     }
 }

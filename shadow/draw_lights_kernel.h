@@ -3,6 +3,7 @@
 #include "core/frame/camera.h"
 #include "core/frame/surface.h"
 #include "core/light/clip.h"
+#include "core/math/affine.h"
 
 namespace penumbra::shadow {
 
@@ -14,6 +15,7 @@ struct DrawnLight {
     Vec3f normal;                           // unit, towards the viewer
     float plane_distance;                   // normal . (point of the light - eye), < 0
     Vec3f radiance;
+    Affine3f previous_from_current;
 };
 
 struct DrawJob {

@@ -49,6 +49,7 @@ void prepare_lights(const SceneView& view, LightSet& set) {
         if (!(light.area > 0)) continue;  // collapsed by its transform: no vertices, no light
         shaded.shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
         shaded.radiance = light.radiance;
+        shaded.previous_from_current = light.previous_from_current;
         shaded.visible = light.visible;
     }
 }

@@ -19,7 +19,8 @@ static_assert(kMaxPolygonVertices == kMaxLightVertices);
 struct ShadedLight {
     PolygonShape<float> shape;
     Vec3f radiance;
-    bool visible = false;  // drawn by draw_lights
+    Affine3f previous_from_current;  // see PolygonLight
+    bool visible = false;            // drawn by draw_lights
 };
 
 // One entry per light of SceneView::lights, in the same order.

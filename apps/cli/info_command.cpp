@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/cli/say.h"
 #include "core/error.h"
 #include "core/image/exr.h"
 #include "core/scene/read_scene.h"
@@ -14,7 +15,7 @@ namespace penumbra::cli {
 namespace {
 
 void print_row(std::string_view key, const std::string& value) {
-    fmt::print("{:<12} {}\n", key, value);
+    say(stdout, "{:<12} {}\n", key, value);
 }
 
 std::string to_text(const image::Window& w) {
@@ -53,7 +54,8 @@ void print_exr(const std::string& path) {
                           header.parts, header.parts == 1 ? "" : "s"));
     for (const image::ExrChannelInfo& channel : header.channels)
         print_row("channel", fmt::format("{} {}", channel.name, image::name(channel.type)));
-    for (const auto& [key, value] : header.metadata) fmt::print("{:<12} {}\n", key, to_text(value));
+    for (const auto& [key, value] : header.metadata)
+        say(stdout, "{:<12} {}\n", key, to_text(value));
 }
 
 void print_scene(const std::string& path) {
@@ -101,6 +103,7 @@ std::shared_ptr<std::string> add_info_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("info", "Tell what a scene or an EXR file holds");
     command->add_option("FILE", *path, "Scene (.json, .obj) or EXR file")->required();
     command->callback([path, &exit_code] {
+        require_regular_file(*path);
         const std::string extension = std::filesystem::path(*path).extension().string();
         if (is_exr(*path) || extension == ".exr")
             print_exr(*path);

@@ -6,6 +6,7 @@
 
 #include "apps/cli/info_command.h"
 #include "apps/cli/render_command.h"
+#include "apps/cli/say.h"
 #include "core/error.h"
 
 namespace {
@@ -14,7 +15,7 @@ constexpr int kInputIsWrong = 2;
 constexpr int kInputOutputFailed = 3;
 
 int report(const std::string& message, int exit_code) {
-    fmt::print(stderr, "error: {}\n", message);
+    penumbra::cli::say(stderr, "error: {}\n", message);
     return exit_code;
 }
 
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
         return report(e.what(), kInputIsWrong);
     }
+    penumbra::cli::require_said();
     return exit_code;
 }
 

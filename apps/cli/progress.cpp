@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/say.h"
 #include "core/profile/stopwatch.h"
 
 namespace penumbra::cli {
@@ -61,9 +62,9 @@ void Progress::State::plain(const FrameReport& frame) const {
     const std::string line = fmt::format("frame {} ({}/{}): {}, ETA {}", frame.frame, done,
                                          frame_count, what, duration(remaining_seconds()));
     if (rewrites_line)
-        fmt::print("\r\x1b[K{}{}", line, done == frame_count ? "\n" : "");
+        say(stdout, "\r\x1b[K{}{}", line, done == frame_count ? "\n" : "");
     else
-        fmt::print("{}\n", line);
+        say(stdout, "{}\n", line);
 }
 
 void Progress::State::json(const FrameReport& frame) const {
@@ -74,13 +75,13 @@ void Progress::State::json(const FrameReport& frame) const {
                                  {"path", frame.path},
                                  {"render_seconds", frame.statistics.render_seconds},
                                  {"remaining_seconds", remaining_seconds()}};
-    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    say(stdout, "{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void Progress::State::openjd(const FrameReport& frame) const {
-    fmt::print("openjd_progress: {:.2f}\n", 100.0 * done / frame_count);
-    fmt::print("openjd_status: frame {} {} ({}/{})\n", frame.frame, name(frame.outcome), done,
-               frame_count);
+    say(stdout, "openjd_progress: {:.2f}\n", 100.0 * done / frame_count);
+    say(stdout, "openjd_status: frame {} {} ({}/{})\n", frame.frame, name(frame.outcome), done,
+        frame_count);
 }
 
 Progress::Progress(ProgressStyle style, int frame_count)

@@ -8,6 +8,7 @@
 #include "apps/cli/option_checks.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/render_options.h"
+#include "apps/cli/say.h"
 #include "apps/cli/signals.h"
 #include "apps/cli/statistics_file.h"
 #include "apps/renderer/builtin_scene.h"
@@ -57,7 +58,7 @@ void require_files_of_their_own(const RenderOptions& options, const Scene& scene
 
 void say_what_would_happen(const RenderOptions& options, const std::vector<int>& frames) {
     for (const int frame : frames)
-        fmt::print("{}\n", renderer::expand_pattern(options.output.pattern, frame));
+        say(stdout, "{}\n", renderer::expand_pattern(options.output.pattern, frame));
 }
 
 int report_failures(const renderer::SequenceReport& report) {
@@ -65,7 +66,7 @@ int report_failures(const renderer::SequenceReport& report) {
     for (const renderer::FrameReport& frame : report.frames) {
         if (frame.outcome != renderer::FrameOutcome::kFailed) continue;
         ++failed;
-        fmt::print(stderr, "error: frame {}: {}\n", frame.frame, frame.error);
+        say(stderr, "error: frame {}: {}\n", frame.frame, frame.error);
     }
     if (report.interrupted) return interrupt_exit_code();
     return failed > 0 ? kSomeFramesFailed : 0;
@@ -75,7 +76,7 @@ int render(RenderOptions& options) {
     interpret(options);
     const Scene scene =
         options.scene.empty() ? renderer::read_builtin_scene() : read_scene(options.scene);
-    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : scene.warnings) say(stderr, "warning: {}\n", warning);
     const std::vector<int> frames = frames_of(options, scene);
     if (options.output.pattern.empty())
         options.output.pattern = default_pattern(options, frames.size());
@@ -93,8 +94,9 @@ int render(RenderOptions& options) {
     const renderer::SequenceReport report = renderer::render_sequence(
         scene, frames, options.image, options.execution, options.output,
         [&](const renderer::FrameReport& frame) { progress.report(frame); }, catch_interrupts());
+    const int exit_code = report_failures(report);
     if (!options.statistics.empty()) write_statistics(options.statistics, scene, options, report);
-    return report_failures(report);
+    return exit_code;
 }
 
 }  // namespace

@@ -205,6 +205,10 @@ void interpret(RenderOptions& o) {
     o.image.noise.rule = meaning(kLineRules, o.noise_rule);
     o.output.aovs = renderer::parse_aov_list(o.aovs);
     o.output.compression = meaning(kCompressions, o.compression);
+    if (o.output.compression == ExrCompression::kDwaa &&
+        o.output.aovs != renderer::AovSet{renderer::Aov::kBeauty})
+        throw InputError(
+            "--compression: dwaa loses digits: expected another one, or --aov beauty alone");
     o.output.float_precision = meaning(kPrecisions, o.precision);
     if (!o.preview.empty()) o.output.preview = o.preview;
     o.execution.isa = meaning(kIsas, o.isa);

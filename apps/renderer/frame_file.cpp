@@ -46,6 +46,8 @@ image::ExrRational rational(double frames_per_second) {
     const double ntsc = std::round(frames_per_second * 1.001);
     if (std::abs(ntsc * 1000 / 1001 - frames_per_second) < 1e-3 && ntsc != frames_per_second)
         return {static_cast<int>(ntsc) * 1000, 1001};
+    if (frames_per_second == std::round(frames_per_second))
+        return {static_cast<int>(frames_per_second), 1};
     return {static_cast<int>(std::lround(frames_per_second * 1000)), 1000};
 }
 
@@ -162,13 +164,13 @@ image::ExrImage describe_file(const Film& film, const FrameIdentity& identity,
 
 image::ExrWriteReport write_frame(const Film& film, const FrameIdentity& identity,
                                   const OutputSettings& output, int threads) {
-    // The preview first: the EXR's presence says that a frame is done.
-    if (output.preview)
-        write_preview(film, expand_pattern(*output.preview, identity.frame), output.exposure);
     image::PendingFile file(expand_pattern(output.pattern, identity.frame));
     const image::ExrWriteReport report =
         image::write_exr(file.path(), describe_file(film, identity, output), threads);
     image::require_complete(file.path());
+    // The EXR last: its presence says that a frame is done.
+    if (output.preview)
+        write_preview(film, expand_pattern(*output.preview, identity.frame), output.exposure);
     file.publish();
     return report;
 }

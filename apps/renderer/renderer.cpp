@@ -51,7 +51,8 @@ struct Renderer::State {
     parallel::Arena arena;
     shadow::Occluders occluders;
     SceneView view;
-    Camera camera;  // without jitter
+    Camera camera;                                 // without jitter
+    const std::atomic<bool>* cancelled = nullptr;  // of the frame that is rendered
     shadow::LightSet lights;
     raster::Geometry geometry;
     FrameScratch frame_scratch;
@@ -69,9 +70,10 @@ struct Renderer::State {
         if (!execution.isa) execution.isa = simd::best_isa();
     }
 
+    [[nodiscard]] bool is_cancelled() const { return cancelled != nullptr && cancelled->load(); }
     void evaluate_at(int frame);
     void render_tiles(int pass, const FrameContext& context, Film& film,
-                      FrameStatistics& statistics, const std::atomic<bool>* cancelled);
+                      FrameStatistics& statistics);
     void render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film);
     void trace_lights(const Tile& tile, const FrameContext& context, TileScratch& tile_scratch,
                       WorkerCounts& count);
@@ -95,6 +97,7 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
                                    .surface = to_const(tile_scratch.surface()),
                                    .offset_scales = occluders.offset_scales()};
     for (const std::uint32_t light : tile_scratch.lights.kept()) {
+        if (is_cancelled()) return;
         for (int sample = 0; sample < image.samples_per_pixel; ++sample) {
             shadow::generate_rays(inputs,
                                   {.light = &view.lights[light],
@@ -140,8 +143,7 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
 }
 
 void Renderer::State::render_tiles(int pass, const FrameContext& context, Film& film,
-                                   FrameStatistics& statistics,
-                                   const std::atomic<bool>* cancelled) {
+                                   FrameStatistics& statistics) {
     profile::Stopwatch watch;
     jitter(camera, pass, image.passes, view.camera);
     raster::prepare(view, context, film.window, arena, geometry);
@@ -171,6 +173,7 @@ int Renderer::threads() const {
 FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
                                  const std::atomic<bool>* cancelled) {
     State& s = *state_;
+    s.cancelled = cancelled;
     FrameStatistics statistics;
     const profile::Stopwatch whole;
     profile::Stopwatch watch;
@@ -186,9 +189,9 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
                          .isa = *s.execution.isa};
     for (int pass = 0; pass < s.image.passes; ++pass) {
         context.pass = pass;
-        s.render_tiles(pass, context, film, statistics, cancelled);
+        s.render_tiles(pass, context, film, statistics);
     }
-    if (cancelled == nullptr || !cancelled->load())
+    if (!s.is_cancelled())
         finish_frame(s.image, context, s.camera, s.arena, s.frame_scratch, film, statistics);
 
     for (const WorkerCounts& count : s.counts) {

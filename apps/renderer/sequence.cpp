@@ -57,6 +57,8 @@ class Sequence {
             finish(report);
             return;
         }
+        // Made outside of what a frame may fail with: if it cannot be made, no frame can.
+        if (!renderer_) renderer_ = std::make_unique<Renderer>(scene_, image_, execution_);
         const std::string error = capture([&] { render(frame, report, cancelled); });
         if (cancelled.load()) return;  // the film is unfinished
         writing_.wait();
@@ -68,7 +70,6 @@ class Sequence {
     }
 
     void render(int frame, FrameReport& report, const std::atomic<bool>& cancelled) {
-        if (!renderer_) renderer_ = std::make_unique<Renderer>(scene_, image_, execution_);
         film_ = 1 - film_;
         report.statistics = renderer_->render(frame, output_.aovs, films_[film_], &cancelled);
     }
@@ -118,8 +119,6 @@ class Sequence {
             return "";
         } catch (const std::bad_alloc&) {
             return "out of memory";
-        } catch (const InputError&) {
-            throw;  // wrong for every frame
         } catch (const std::exception& e) {
             return e.what();
         }

@@ -64,6 +64,7 @@ std::string describe_settings(const ImageSettings& image, const ExecutionSetting
         image.light_tolerance, name(execution.trace_isa), output.float_precision ? "float" : "half",
         image::name(output.compression));
     if (image.denoise == Denoise::kNoiseDriven) text = describe_filter(image) + text;
+    if (output.preview) text = fmt::format("preview at {} EV, ", output.exposure) + text;
     for (const AovInfo& aov : aov_table())
         if (output.aovs.contains(aov.aov)) text += fmt::format(" {}", aov.name);
     return text;

@@ -142,12 +142,33 @@ PolygonLight make_light(std::span<const Vec3d> vertices, const Vec3f& radiance) 
     return light;
 }
 
-PolygonLight evaluate_light(const Scene& scene, const Light& light, double time) {
+// The affine map that takes a polygon's plane, its first three vertices and its normal, to
+// another's.
+Affine3f map_between(std::span<const Vec3d> from, std::span<const Vec3d> to) {
+    const auto frame = [](std::span<const Vec3d> v) {
+        const Vec3d u = v[1] - v[0], w = v[2] - v[0], n = normalize(newell_normal(v));
+        return glm::dmat3(u.x, u.y, u.z, w.x, w.y, w.z, n.x, n.y, n.z);
+    };
+    const glm::dmat3 linear = frame(to) * glm::inverse(frame(from));
+    const auto column = [&](int i) { return Vec3d{linear[i].x, linear[i].y, linear[i].z}; };
+    const Vec3d moved = column(0) * from[0].x + column(1) * from[0].y + column(2) * from[0].z;
+    return {narrow(column(0)), narrow(column(1)), narrow(column(2)), narrow(to[0] - moved)};
+}
+
+PolygonLight evaluate_light(const Scene& scene, const Light& light, EvaluateTimes times) {
+    const double time = times.now;
     const std::vector<Vec3d> vertices = vertices_at(light.polygon, time);
     if (const auto problem = polygon_problem(vertices))
         throw InputError(scene.file, fmt::format("light '{}'", light.name),
                          fmt::format("at {:g} s {}", time, *problem));
     PolygonLight result = make_light(vertices, evaluate(light.radiance, time));
+    const std::vector<Vec3d> before = vertices_at(light.polygon, times.previous);
+    const auto same = [](const Vec3d& a, const Vec3d& b) {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    };
+    const bool moved = !std::equal(vertices.begin(), vertices.end(), before.begin(), same);
+    if (moved && !polygon_problem(before))
+        result.previous_from_current = map_between(vertices, before);
     result.two_sided = light.two_sided;
     result.visible = light.visible;
     return result;
@@ -166,10 +187,10 @@ PolygonLight place_emitter(const Emitter& emitter, const Instance& instance) {
     return light;
 }
 
-void evaluate_lights(const Scene& scene, double time, SceneView& view) {
+void evaluate_lights(const Scene& scene, EvaluateTimes times, SceneView& view) {
     view.lights.clear();
     for (const Light& light : scene.lights)
-        view.lights.push_back(evaluate_light(scene, light, time));
+        view.lights.push_back(evaluate_light(scene, light, times));
     for (const Emitter& emitter : scene.emitters) {
         const PolygonLight light = place_emitter(emitter, view.instances[emitter.model]);
         if (light.area > 0) view.lights.push_back(light);  // else shrunk below float's range
@@ -204,7 +225,7 @@ Camera evaluate_camera(const Scene& scene, double time, FilmSize film, double di
 }  // namespace
 
 EvaluateTimes times_of_frame(const Animation& animation, int frame) {
-    return {.now = animation.seconds(frame), .previous = animation.seconds(frame - 1)};
+    return {.now = animation.seconds(frame), .previous = animation.seconds(frame - 1.0)};
 }
 
 void evaluate(const Scene& scene, EvaluateTimes times, FilmSize film, SceneView& reuse) {
@@ -224,10 +245,13 @@ void evaluate(const Scene& scene, EvaluateTimes times, FilmSize film, SceneView&
     const bool empty = scene.models.empty();
     view.bounds_min = empty ? Vec3f{0, 0, 0} : low;
     view.bounds_max = empty ? Vec3f{0, 0, 0} : high;
-    evaluate_lights(scene, times.now, view);
+    evaluate_lights(scene, times, view);
     const double diagonal = length(widen(view.bounds_max) - widen(view.bounds_min));
     view.camera = evaluate_camera(scene, times.now, film, diagonal);
-    view.previous_camera = evaluate_camera(scene, times.previous, film, diagonal);
+    // A camera without a direction a frame ago is no fault of this frame: nothing moved, then.
+    view.previous_camera = camera_problem(scene.camera, times.previous)
+                               ? view.camera
+                               : evaluate_camera(scene, times.previous, film, diagonal);
 }
 
 }  // namespace penumbra

@@ -36,6 +36,7 @@ struct PolygonLight {
     Vec3f center;    // mean of the vertices
     float area = 0;  // square metres
     Vec3f radiance;
+    Affine3f previous_from_current;  // its points' world positions now -> in the previous frame
     bool two_sided = false;
     bool visible = true;  // drawn by the lights' own pass; false for emitters: they are geometry
     bool is_geometry = false;  // an emissive face of a model

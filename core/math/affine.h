@@ -24,6 +24,13 @@ struct Affine {
     }
 };
 
+// The same map in every lane.
+template <class F>
+Affine<F> broadcast(const Affine<float>& a) {
+    return {broadcast<F>(a.column_x), broadcast<F>(a.column_y), broadcast<F>(a.column_z),
+            broadcast<F>(a.translation)};
+}
+
 using Affine3f = Affine<float>;
 
 }  // namespace penumbra

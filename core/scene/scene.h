@@ -94,8 +94,8 @@ struct Animation {
     int first_frame = 1;
     int last_frame = 1;
 
-    [[nodiscard]] double seconds(int frame) const {
-        return (static_cast<double>(frame) - first_frame) / frames_per_second;
+    [[nodiscard]] double seconds(double frame) const {
+        return (frame - first_frame) / frames_per_second;
     }
 };
 

@@ -126,6 +126,7 @@ bad_option "an unknown AOV" "--aov" --aov depth
 bad_option "too many rays" "--spp" --spp 65
 bad_option "no threads" "--threads" --threads 0
 bad_option "an unknown compression" "--compression" --compression lzma
+bad_option "a lossy compression of positions" "--compression" --compression dwaa --aov P
 bad_option "an unknown instruction set" "--isa" --isa neon
 bad_option "an unknown instruction set of the tracer" "--trace-isa" --trace-isa bogus
 bad_option "an exposure that is no number" "--exposure" --exposure nan

@@ -117,6 +117,30 @@ some_fail() {
 }
 check "a frame that fails is listed and the others are rendered" some_fail
 
+a_bad_frame() {
+    cat >through.json <<'JSON'
+{ "film": { "size": [16, 16] }, "models": [ { "name": "quads", "file": "quad.obj" } ],
+  "camera": { "eye": [0, 0, 3], "target": [0, 0, 0],
+              "keys": [ { "time": 0, "eye": [0, 0, 3] }, { "time": 6, "eye": [0, 0, -3] } ] },
+  "animation": { "fps": 1, "frames": [1, 1] } }
+JSON
+    exits_with 3 "$penumbra" render through.json -f 3-5 -o through/x.####.exr &&
+        has_files through/x.0003.exr through/x.0005.exr && grep -q '^error: frame 4: ' stderr
+}
+check "a frame whose camera is wrong is listed and the others are rendered" a_bad_frame
+
+# ---- streams
+check "an error that cannot be printed is still its exit code" bash -c "'$penumbra' render nope.json 2>/dev/full; [ \$? -eq 2 ]"
+check "what cannot be printed is an error" bash -c "'$penumbra' info shot.json >/dev/full 2>/dev/null; [ \$? -eq 3 ]"
+mkfifo pipe.exr
+check "a pipe is no image" refuses 2 "pipe.exr" timeout 10 "$penumbra" info pipe.exr
+check "SIGHUP ends with 129 and leaves whole files" interrupted HUP 129
+file_size_limit() { (ulimit -f 8; refuses 3 "limit/x.exr" "$penumbra" render shot.json -f 1 -o limit/x.exr --precision float --aov all --compression none); }
+check "a limit of file sizes is one error" file_size_limit
+check "a changed exposure renders previews anew" bash -c \
+    "'$penumbra' render shot.json -f 2 -o c/x.exr --preview c/x.png --resume | grep -c skipped | grep -qx 1 &&
+     '$penumbra' render shot.json -f 2 -o c/x.exr --preview c/x.png --exposure 1 --resume | grep -c skipped | grep -qx 0"
+
 # ---- help
 check "--help explains every option" bash -c \
     "for o in --output --frames --size --crop --method --spp --aa --denoise --aov --compression --precision --resume \
