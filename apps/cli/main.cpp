@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 
+#include "apps/cli/diff_command.h"
 #include "apps/cli/info_command.h"
 #include "apps/cli/render_command.h"
 #include "apps/cli/say.h"
@@ -28,6 +29,7 @@ int run(int argc, char** argv) {
     int exit_code = 0;
     const auto render = penumbra::cli::add_render_command(app, exit_code);
     const auto info = penumbra::cli::add_info_command(app, exit_code);
+    const auto diff = penumbra::cli::add_diff_command(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

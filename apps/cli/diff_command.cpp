@@ -1,0 +1,138 @@
+#include "apps/cli/diff_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/cli/diff_json.h"
+#include "apps/cli/diff_options.h"
+#include "apps/diff/html_report.h"
+#include "apps/diff/pairs.h"
+#include "core/error.h"
+#include "core/image/publish.h"
+
+namespace penumbra::cli {
+namespace {
+
+// Of several pairs the gravest: a wrong input before a difference.
+int gravest(int a, int b) {
+    return std::max(a, b);
+}
+
+void print_metrics(const diff::PairReport& pair) {
+    fmt::print("  {:<16}", "layer");
+    for (const diff::MetricInfo& metric : diff::metric_table()) fmt::print(" {:>10}", metric.name);
+    fmt::print("\n");
+    for (const diff::LayerReport& layer : pair.layers) {
+        fmt::print("  {:<16}", layer.name);
+        for (const diff::MetricInfo& metric : diff::metric_table()) {
+            const auto& value = layer.metrics[metric.metric];
+            fmt::print(" {:>10}", value ? fmt::format("{:.5g}", *value) : "-");
+        }
+        fmt::print("\n");
+    }
+}
+
+// Failures to standard output, wrong inputs to the error stream: one line each.
+void print(const diff::PairReport& pair, bool is_only_one) {
+    const bool differs =
+        std::any_of(pair.layers.begin(), pair.layers.end(),
+                    [](const diff::LayerReport& layer) { return layer.differs(); });
+    const char* verdict = !pair.passed() ? "FAILED" : differs ? "within limits" : "same";
+    if (pair.exit_code() != 2) fmt::print("{}: {}\n", verdict, pair.name);
+    if (differs || (is_only_one && !pair.layers.empty())) print_metrics(pair);
+    for (const diff::Failure& failure : pair.failures) {
+        if (diff::is_input_error(failure.kind))
+            fmt::print(stderr, "error: {}\n", failure.message);
+        else
+            fmt::print("  {}: {}{}{}\n", diff::name(failure.kind), failure.layer,
+                       failure.layer.empty() ? "" : ": ", failure.message);
+    }
+}
+
+// The part of a pair's file name that takes the place of '#' in the heat map's.
+std::string heatmap_path(const std::string& pattern, const diff::FilePair& pair,
+                         const std::string& reference) {
+    const std::string name = std::filesystem::path(pattern).filename().string();
+    const std::size_t begin = name.find('#');
+    if (begin == std::string::npos) return pattern;
+    const std::string source = std::filesystem::path(reference).filename().string();
+    const std::size_t before = source.find('#');
+    const std::size_t after = source.size() - source.find_last_of('#') - 1;
+    const std::string frame = pair.name.substr(before, pair.name.size() - before - after);
+    const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+    return (std::filesystem::path(pattern).parent_path() /
+            (name.substr(0, begin) + frame + name.substr(end)))
+        .string();
+}
+
+void check_heatmap(const DiffOptions& options, std::size_t pairs) {
+    if (options.heatmap.empty()) return;
+    const bool has_number =
+        std::filesystem::path(options.heatmap).filename().string().find('#') != std::string::npos;
+    const bool has_frames =
+        std::filesystem::path(options.reference).filename().string().find('#') !=
+            std::string::npos &&
+        !std::filesystem::is_directory(options.reference);
+    if (!options.heatmap.ends_with(".png"))
+        throw InputError(fmt::format("--heatmap: expected a name that ends in .png, got \"{}\"",
+                                     options.heatmap));
+    if (has_number && !has_frames) throw InputError("--heatmap: '####' needs a REF with '####'");
+    if (pairs > 1 && !has_number)
+        throw InputError(
+            fmt::format("--heatmap: {} pairs need '####' in the file name, got \"{}\"; "
+                        "folders are shown by --html",
+                        pairs, options.heatmap));
+}
+
+void check_ignored(const DiffOptions& options, const std::set<std::string>& seen) {
+    for (const std::string& layer : options.ignored_layers)
+        if (!seen.contains(layer))
+            throw InputError(fmt::format("--ignore-layers: no image has a layer \"{}\"", layer));
+}
+
+int run_diff(const DiffOptions& options) {
+    std::optional<diff::Mask> mask;
+    const diff::CompareSettings settings = interpret(options, mask);
+    const std::vector<diff::FilePair> pairs = diff::find_pairs(options.reference, options.test);
+    check_heatmap(options, pairs.size());
+    const parallel::Arena arena(options.threads > 0 ? options.threads
+                                                    : parallel::default_thread_count());
+    DiffJson json(options, settings);
+    diff::HtmlReport html(options.reference + " and " + options.test, settings.thresholds);
+    std::set<std::string> ignored;
+    int exit_code = 0;
+    bool all_opened = true;
+    for (const diff::FilePair& pair : pairs) {
+        diff::PairReport report = diff::compare_files(pair.reference, pair.test, settings, arena);
+        report.name = pair.name;
+        print(report, pairs.size() == 1);
+        exit_code = gravest(exit_code, report.exit_code());
+        all_opened = all_opened && !report.layers.empty();
+        ignored.insert(report.ignored_layers.begin(), report.ignored_layers.end());
+        json.add(report);
+        if (!options.html.empty()) html.add(report);
+        if (report.heat && !options.heatmap.empty())
+            image::write_png(heatmap_path(options.heatmap, pair, options.reference), *report.heat);
+    }
+    if (all_opened) check_ignored(options, ignored);
+    if (!options.json.empty()) json.write(options.json, exit_code);
+    if (!options.html.empty()) image::write_file_atomically(options.html, html.page());
+    return exit_code;
+}
+
+}  // namespace
+
+std::shared_ptr<DiffOptions> add_diff_command(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<DiffOptions>();
+    CLI::App* command = app.add_subcommand(
+        "diff",
+        "Compare images: 0 same or within limits, 1 different, 2 wrong input, 3 output failed");
+    declare_options(*command, *options);
+    command->callback([options, &exit_code] { exit_code = run_diff(*options); });
+    return options;
+}
+
+}  // namespace penumbra::cli
