@@ -38,7 +38,8 @@ count() {
 # run_suite PRESET: every test that CTest knows in that build.
 run_suite() {
     local preset=$1 name status
-    cmake --preset "$preset" -DPENUMBRA_WERROR=ON -DPENUMBRA_TESTS=ON -DPENUMBRA_BENCHMARKS=ON >"$logs/configure" 2>&1 ||
+    cmake --preset "$preset" -DPENUMBRA_WERROR=ON -DPENUMBRA_TESTS=ON -DPENUMBRA_BENCHMARKS=ON \
+        -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >"$logs/configure" 2>&1 ||
         { cat "$logs/configure"; exit 1; }
     cmake --build --preset "$preset" || { echo "0 passed, 1 failed, 0 skipped"; exit 1; }
     echo "Tests of the $preset build:"
@@ -51,6 +52,21 @@ run_suite() {
     done
 }
 
+# run_tidy: clang-tidy over everything but the kernels, which it does not know the intrinsics of.
+run_tidy() {
+    local status=0
+    git ls-files 'core/*.cpp' 'raster/*.cpp' 'shadow/*.cpp' 'denoise/*.cpp' 'apps/*.cpp' | grep -v '_kernel\.cpp$' |
+        xargs -P "$(nproc)" -n 4 clang-tidy -p build/release --quiet >"$logs/log" 2>/dev/null || status=1
+    if [ "$status" -eq 0 ]; then
+        passed=$((passed + 1))
+        echo "clang-tidy: ok"
+    else
+        failed=$((failed + 1))
+        grep -A 3 'error:' "$logs/log" | head -n 60
+        echo "clang-tidy: FAILED"
+    fi
+}
+
 echo "Formatting:"
 status=0
 git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror >"$logs/log" 2>&1 || status=1
@@ -58,6 +74,7 @@ git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror >"$logs/log" 2
 
 run_suite release
 if ! $quick; then
+    run_tidy
     run_suite asan
 fi
 

@@ -177,6 +177,7 @@ PolygonLight evaluate_light(const Scene& scene, const Light& light, EvaluateTime
 PolygonLight place_emitter(const Emitter& emitter, const Instance& instance) {
     const Transform transform(instance.world_from_object);
     std::vector<Vec3d> vertices;
+    vertices.reserve(static_cast<std::size_t>(emitter.polygon.vertex_count));
     for (int i = 0; i < emitter.polygon.vertex_count; ++i)
         vertices.push_back(
             transform.point(widen(emitter.polygon.vertices[static_cast<std::size_t>(i)])));
