@@ -8,6 +8,7 @@
 
 #include "apps/cli/diff_json.h"
 #include "apps/cli/diff_options.h"
+#include "apps/cli/say.h"
 #include "apps/diff/html_report.h"
 #include "apps/diff/pairs.h"
 #include "core/error.h"
@@ -22,16 +23,16 @@ int gravest(int a, int b) {
 }
 
 void print_metrics(const diff::PairReport& pair) {
-    fmt::print("  {:<16}", "layer");
-    for (const diff::MetricInfo& metric : diff::metric_table()) fmt::print(" {:>10}", metric.name);
-    fmt::print("\n");
+    say(stdout, "  {:<16}", "layer");
+    for (const diff::MetricInfo& metric : diff::metric_table()) say(stdout, " {:>10}", metric.name);
+    say(stdout, "\n");
     for (const diff::LayerReport& layer : pair.layers) {
-        fmt::print("  {:<16}", layer.name);
+        say(stdout, "  {:<16}", layer.name);
         for (const diff::MetricInfo& metric : diff::metric_table()) {
             const auto& value = layer.metrics[metric.metric];
-            fmt::print(" {:>10}", value ? fmt::format("{:.5g}", *value) : "-");
+            say(stdout, " {:>10}", value ? fmt::format("{:.5g}", *value) : "-");
         }
-        fmt::print("\n");
+        say(stdout, "\n");
     }
 }
 
@@ -41,14 +42,14 @@ void print(const diff::PairReport& pair, bool is_only_one) {
         std::any_of(pair.layers.begin(), pair.layers.end(),
                     [](const diff::LayerReport& layer) { return layer.differs(); });
     const char* verdict = !pair.passed() ? "FAILED" : differs ? "within limits" : "same";
-    if (pair.exit_code() != 2) fmt::print("{}: {}\n", verdict, pair.name);
+    if (pair.exit_code() != 2) say(stdout, "{}: {}\n", verdict, pair.name);
     if (differs || (is_only_one && !pair.layers.empty())) print_metrics(pair);
     for (const diff::Failure& failure : pair.failures) {
         if (diff::is_input_error(failure.kind))
-            fmt::print(stderr, "error: {}\n", failure.message);
+            say(stderr, "error: {}\n", failure.message);
         else
-            fmt::print("  {}: {}{}{}\n", diff::name(failure.kind), failure.layer,
-                       failure.layer.empty() ? "" : ": ", failure.message);
+            say(stdout, "  {}: {}{}{}\n", diff::name(failure.kind), failure.layer,
+                failure.layer.empty() ? "" : ": ", failure.message);
     }
 }
 

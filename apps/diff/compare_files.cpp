@@ -77,7 +77,7 @@ void judge_layer(const LayerReport& layer, const CompareSettings& settings,
     const char* const why = settings.thresholds.empty() ? "" : ", and no threshold covers that";
     failures.push_back(
         {FailureKind::kDiffers, layer.name,
-         fmt::format("{} differ in up to {} of {} pixels{}", channels, most, layer.pixels, why)});
+         fmt::format("{}: up to {} of {} pixels differ{}", channels, most, layer.pixels, why)});
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct NonFinite {
     std::uint64_t nan = 0, infinite = 0;  // values
 };
 
-// A square of pixels, in the data window's own coordinates, with the mean of its error map.
+// A square of pixels, in the data window's own coordinates, with its mean error: FLIP for
+// colours (plus a thousandth of the relative difference), else the relative difference.
 struct Block {
     int x = 0, y = 0, width = 0, height = 0;
     double error = 0;

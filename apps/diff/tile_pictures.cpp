@@ -11,7 +11,7 @@ namespace penumbra::diff {
 namespace {
 
 constexpr int kLargestSide = 4096;
-constexpr double kVisibleError = 0.15;
+constexpr double kVisibleError = 0.08;
 
 int reduction_of(int width, int height) {
     int reduction = 1;

@@ -9,7 +9,7 @@
 namespace penumbra::diff {
 
 // A tile as pictures: 8-bit RGB of both images, and the error map as 0 ... 255. The map is FLIP for
-// colours (at least 0.15 where anything differs, so that it is seen) and the largest
+// colours (at least 0.08 where anything differs, so that it is seen) and the largest
 // relative_difference() of the channels for everything else.
 struct TilePictures {
     image::Picture reference, test;
