@@ -161,9 +161,19 @@ void write_shapes() {
     write_parts("parts_renamed.exr", "other", 0.5f);
 }
 
+// White but for the pixels around (64, 64) and the last one.
+void write_mask(const std::string& name) {
+    image::Picture picture{70, 66, 3, {}};
+    for (int y = 0; y < 66; ++y)
+        for (int x = 0; x < 70; ++x)
+            picture.bytes.insert(picture.bytes.end(), 3, x > 60 && y > 60 ? 0 : 255);
+    image::write_png(name, picture);
+}
+
 }  // namespace
 
 int main() {
+    write_mask("mask.png");
     write_values();
     write_shapes();
     write_huge("16k.exr", 0);

@@ -91,7 +91,10 @@ check "a share of pixels" verdict 0 - layers.exr layers_id.exr --fail-above shar
 check "pixels beyond a threshold of their own" verdict 0 - ref.exr one_pixel.exr --fail-above pixels=0 --pixel-threshold 0.9
 check "an ignored layer" verdict 0 - layers.exr layers_z.exr --ignore-layers Z
 check "an ignored layer that one file lacks" verdict 0 - layers.exr layers_extra.exr --ignore-layers noise
-check "a mask" verdict 0 - single.exr single_other.exr --mask single_other.exr --fail-above max=1
+check "a masked pixel may differ" verdict 0 - ref.exr one_pixel.exr --mask mask.png
+check "and be no number" verdict 0 - ref.exr nan.exr --mask mask.png
+check "a masked pixel leaks into no neighbour" verdict 0 - ref.exr one_pixel.exr --mask mask.png --fail-above flip=0 --fail-above hdr-flip=0 --fail-below ssim=1
+check "other pixels count under a mask" verdict 1 differs ref.exr one_ulp.exr --mask mask.png
 check "no layer of that name" refuses 2 "--ignore-layers" "$penumbra" diff ref.exr same.exr --ignore-layers depht
 check "max below" refuses 2 "use --fail-above" "$penumbra" diff ref.exr same.exr --fail-below max=1
 check "ssim above" refuses 2 "use --fail-below" "$penumbra" diff ref.exr same.exr --fail-above ssim=1
