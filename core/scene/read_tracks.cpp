@@ -61,7 +61,7 @@ Vec3Track read_scale(const KeyedNode& node) {
         const auto s = static_cast<float>(value.number(range));
         return Vec3f{s, s, s};
     };
-    const Vec3Track track = node.track<Vec3f>("scale", Vec3f{1, 1, 1}, read);
+    Vec3Track track = node.track<Vec3f>("scale", Vec3f{1, 1, 1}, read);
     const Vec3f& first = track.keys.front().value;
     for (const auto& [time, s] : track.keys) {
         if (!(std::fabs(s.x) >= 1e-6f && std::fabs(s.y) >= 1e-6f && std::fabs(s.z) >= 1e-6f))
