@@ -106,13 +106,18 @@ class StructureCheck {
         check_channels(number);
     }
 
+    template <class Channels>
+    static auto find_channel(const Channels& channels, const std::string& name) {
+        return std::find_if(channels.begin(), channels.end(),
+                            [&](const auto& each) { return each.first == name; });
+    }
+
     void check_channels(int part) {
         const auto a = channels_of(reference_, part, ignored_);
         const auto b = channels_of(test_, part, ignored_);
         std::string missing, added;
         for (const auto& [name, type] : a) {
-            const auto other = std::find_if(b.begin(), b.end(),
-                                            [&](const auto& each) { return each.first == name; });
+            const auto other = find_channel(b, name);
             if (other == b.end())
                 missing += " " + name;
             else if (other->second != type)
@@ -121,9 +126,7 @@ class StructureCheck {
                                                      name, type, other->second));
         }
         for (const auto& [name, type] : b)
-            if (std::none_of(a.begin(), a.end(),
-                             [&](const auto& each) { return each.first == name; }))
-                added += " " + name;
+            if (find_channel(a, name) == a.end()) added += " " + name;
         if (!missing.empty())
             fail(FailureKind::kChannels, "channels missing in the test:" + missing);
         if (!added.empty())
