@@ -1,5 +1,7 @@
 #include "shadow/rays_kernel.h"
 
+#include <new>
+
 #include "core/bsdf/ggx.h"
 #include "core/frame/visibility.h"
 #include "core/math/frame.h"
@@ -38,6 +40,12 @@ struct Block {
     Brdf<F> brdf;
 };
 
+// Constructs in place what `make` returns: an assignment would copy kilobytes of lanes.
+template <class T, class Make>
+[[gnu::always_inline]] inline void emplace(T& target, const Make& make) {
+    ::new (static_cast<void*>(&target)) T(make());
+}
+
 // The light as these pixels see it; false where it gives them nothing.
 [[gnu::flatten]] bool see_light(const RayKernelInputs& kernel, int y, Block& block) {
     const ConstSurfaceView& surface = kernel.inputs->surface;
@@ -45,13 +53,13 @@ struct Block {
     if (simd::none(hit)) return false;
     block.position = load_vector(surface.position, block.x, y);
     block.normal = load_vector(surface.normal, block.x, y);
-    block.seen = see_polygon(kernel.shape, block.position, block.normal);
+    emplace(block.seen, [&] { return see_polygon(kernel.shape, block.position, block.normal); });
     block.seen.lit &= hit;
     return simd::any(block.seen.lit);
 }
 
 [[gnu::flatten]] void measure_light(const RayKernelInputs& kernel, Block& block) {
-    block.sampler = make_polygon_sampler(kernel.shape, block.seen);
+    emplace(block.sampler, [&] { return make_polygon_sampler(kernel.shape, block.seen); });
     block.lit = block.seen.lit & (block.sampler.solid_angle > F(0));
 }
 
