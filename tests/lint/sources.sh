@@ -101,7 +101,7 @@ forbid "xsimd is named in core/simd alone" "xsimd" "${outside_simd[@]}"
 forbid "no hardware approximations of reciprocals and roots" \
     "rsqrt|_rcp[0-9_]*_|rcp(14|28|ps|ss)" "${everything[@]}"
 forbid "kernels use no standard containers and no allocation" \
-    "std::(vector|basic_string|string|map|set|unordered_|deque|list|function|unique_ptr|shared_ptr|make_|optional|variant)|[^a-zA-Z0-9_]new |malloc" \
+    "std::(vector|basic_string|string|map|set|unordered_|deque|list|function|unique_ptr|shared_ptr|make_|optional|variant)|[^a-zA-Z0-9_]new [^(]|malloc" \
     "${kernels[@]}"
 
 build=(CMakeLists.txt **/CMakeLists.txt cmake/* CMakePresets*.json)
