@@ -147,7 +147,8 @@ void resolve_group(const ResolveJob& job, const Group& group) {
     put_material(job, target, material, footprint, point.is_front ^ M(instance.flips_winding));
     if (out.motion_x || out.motion_y) {
         const Vec2<F> moved =
-            motion(job.camera, job.previous_camera, instance.previous_from_current, position);
+            pixel_motion(job.camera, position, job.previous_camera,
+                         broadcast<F>(instance.previous_from_current).point(position));
         target.put(out.motion_x, moved.x);
         target.put(out.motion_y, moved.y);
     }

@@ -46,14 +46,6 @@ ClipDistances<F> clip_distances(const Camera& camera, const Vec3<F>& view) {
     return {view.z - F(camera.near_distance), reach + x, reach - x, reach + y, reach - y};
 }
 
-// The pixel position of a view-space point that is inside all clip planes.
-template <class F>
-Vec2<F> project(const Camera& camera, const Vec3<F>& view) {
-    const F scale = F(camera.focal) / view.z;
-    return {simd::fma(view.x, scale, F(camera.center_x)),
-            simd::fma(-view.y, scale, F(camera.center_y))};
-}
-
 // A pixel coordinate on the grid. Rounding may leave the guard band by an ulp: clamped.
 template <class F>
 simd::IntOf<F> snap(F pixels) {

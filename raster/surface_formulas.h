@@ -158,22 +158,4 @@ Vec3<F> shadow_offset(const SurfaceTriangle<F>& triangle, const SurfacePoint<F>&
     return select(is_outward, offset, Vec3<F>{F(0), F(0), F(0)});
 }
 
-template <class F>
-Vec3<F> transform_point(const Affine3f& map, const Vec3<F>& p) {
-    return fma(broadcast<F>(map.column_x), p.x,
-               fma(broadcast<F>(map.column_y), p.y,
-                   fma(broadcast<F>(map.column_z), p.z, broadcast<F>(map.translation))));
-}
-
-// Pixel position now minus in the previous frame. Both are projected from the rounded world
-// position, so that what stands still moves by exactly 0. A point that was behind the previous
-// camera's near plane is taken to have been on it.
-template <class F>
-Vec2<F> motion(const Camera& now, const Camera& previous, const Affine3f& previous_from_current,
-               const Vec3<F>& position) {
-    Vec3<F> view = previous.view_from_world(transform_point(previous_from_current, position));
-    view.z = simd::max(view.z, F(previous.near_distance));
-    return project(now, now.view_from_world(position)) - project(previous, view);
-}
-
 }  // namespace penumbra::raster

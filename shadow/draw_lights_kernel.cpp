@@ -57,12 +57,6 @@ void show(const shadow::DrawnLight& light, const Camera& camera, const Vec3<F>& 
     shown.seen |= wins;
 }
 
-Vec2<F> project(const Camera& camera, const Vec3<F>& view) {
-    const F scale = F(camera.focal) / view.z;
-    return {simd::fma(view.x, scale, F(camera.center_x)),
-            simd::fma(-view.y, scale, F(camera.center_y))};
-}
-
 void write(const shadow::DrawJob& job, int x, int y, const Shown& shown) {
     const SurfaceView& s = job.surface;
     const M m = shown.seen;
@@ -77,11 +71,8 @@ void write(const shadow::DrawJob& job, int x, int y, const Shown& shown) {
     put(s.dielectric_f0, x, y, m, F(0));
     put(s.emission, x, y, m, shown.radiance);
     put(s.depth, x, y, m, shown.depth);
-    // Both from the rounded position, like the motion of surfaces: what rests moves by exactly 0.
-    Vec3<F> view_before = job.previous_camera.view_from_world(shown.position_before);
-    view_before.z = simd::max(view_before.z, F(job.previous_camera.near_distance));
-    const Vec2<F> motion = project(job.camera, job.camera.view_from_world(shown.position)) -
-                           project(job.previous_camera, view_before);
+    const Vec2<F> motion =
+        pixel_motion(job.camera, shown.position, job.previous_camera, shown.position_before);
     put(s.motion_x, x, y, m, motion.x);
     put(s.motion_y, x, y, m, motion.y);
     put(s.instance, x, y, m, kNothing);

@@ -33,4 +33,23 @@ struct Camera {
     }
 };
 
+// The pixel position of a view-space point before the camera.
+template <class F>
+Vec2<F> project(const Camera& camera, const Vec3<F>& view) {
+    const F scale = F(camera.focal) / view.z;
+    return {simd::fma(view.x, scale, F(camera.center_x)),
+            simd::fma(-view.y, scale, F(camera.center_y))};
+}
+
+// Pixel position now minus in the previous frame, of a point at these world positions. Both are
+// projected from rounded positions, so that what stands still moves by exactly 0. A point that was
+// behind the previous camera's near plane is taken to have been on it.
+template <class F>
+Vec2<F> pixel_motion(const Camera& now, const Vec3<F>& position, const Camera& previous,
+                     const Vec3<F>& position_before) {
+    Vec3<F> view = previous.view_from_world(position_before);
+    view.z = simd::max(view.z, F(previous.near_distance));
+    return project(now, now.view_from_world(position)) - project(previous, view);
+}
+
 }  // namespace penumbra
