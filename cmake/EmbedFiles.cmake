@@ -1,5 +1,6 @@
 # penumbra_embed_files(TARGET NAMESPACE FILE...): compiles the files' bytes into TARGET, as the function
-# `std::span<const EmbeddedFile> NAMESPACE::embedded_files()` that apps/renderer/embedded_file.h declares.
+# `std::span<const EmbeddedFile> NAMESPACE::embedded_files()` (core/embedded_file.h), which the room declares for
+# itself. Once per target.
 function(penumbra_embed_files target namespace)
     set(assembly "")
     set(declarations "")
@@ -15,7 +16,9 @@ function(penumbra_embed_files target namespace)
     endforeach()
     set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_files.cpp)
     file(CONFIGURE OUTPUT ${source} @ONLY CONTENT
-"#include \"apps/renderer/embedded_file.h\"
+"#include <span>
+
+#include \"core/embedded_file.h\"
 
 asm(R\"(
 .pushsection .rodata
@@ -24,6 +27,7 @@ asm(R\"(
 extern \"C\" {
 @declarations@}
 namespace @namespace@ {
+std::span<const EmbeddedFile> embedded_files();
 std::span<const EmbeddedFile> embedded_files() {
     static const EmbeddedFile kFiles[] = {
 @entries@    };

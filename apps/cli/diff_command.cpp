@@ -102,7 +102,9 @@ int run_diff(const DiffOptions& options) {
     const parallel::Arena arena(options.threads > 0 ? options.threads
                                                     : parallel::default_thread_count());
     DiffJson json(options, settings);
-    diff::HtmlReport html(options.reference + " and " + options.test, settings.thresholds);
+    std::optional<diff::HtmlReport> html;
+    if (!options.html.empty())
+        html.emplace(options.html, options.reference + " and " + options.test, settings.thresholds);
     std::set<std::string> ignored;
     int exit_code = 0;
     bool all_opened = true;
@@ -114,13 +116,13 @@ int run_diff(const DiffOptions& options) {
         all_opened = all_opened && !report.layers.empty();
         ignored.insert(report.ignored_layers.begin(), report.ignored_layers.end());
         json.add(report);
-        if (!options.html.empty()) html.add(report);
+        if (html) html->add(report);
         if (report.heat && !options.heatmap.empty())
             image::write_png(heatmap_path(options.heatmap, pair, options.reference), *report.heat);
     }
     if (all_opened) check_ignored(options, ignored);
     if (!options.json.empty()) json.write(options.json, exit_code);
-    if (!options.html.empty()) image::write_file_atomically(options.html, html.page());
+    if (html) html->publish();
     return exit_code;
 }
 

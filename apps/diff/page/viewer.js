@@ -1,25 +1,30 @@
-#include "apps/diff/html_assets.h"
-
-namespace penumbra::diff {
-
-std::string_view html_script() {
-    return R"js(
 "use strict";
-// One viewer per <div class="viewer">: its <img>s are the reference, the test and the error map.
+// One viewer per <div class="viewer">: its stage names the pictures of the reference, the test and
+// the error map. Nothing is decoded before the viewer is seen.
 function viewer(root) {
   const stage = root.querySelector(".stage");
   const source = ["reference", "test", "heat"].map(k => stage.dataset[k]);
   const labels = ["reference", "test", "error map"];
   const state = { mode: "flip", shown: 0, scale: 1, x: 0, y: 0, split: 0.5, timer: null };
-  const picture = i => { const e = new Image(); e.src = source[i]; e.alt = labels[i];
-                         e.draggable = false; return e; };
   const size = new Image();
-  const fit = () => {
-    state.scale = Math.min(stage.clientWidth / (state.mode === "side" ? 2 : 1) / size.naturalWidth,
-                           stage.clientHeight / size.naturalHeight);
-    state.x = state.y = 0;
-    place();
+
+  const picture = i => {
+    const e = new Image();
+    e.src = source[i]; e.alt = labels[i]; e.draggable = false;
+    return e;
   };
+  const tag = (text, side) => {
+    const e = document.createElement("span");
+    e.className = "tag " + side; e.textContent = text;
+    return e;
+  };
+  const box = (className, ...children) => {
+    const e = document.createElement("div");
+    e.className = className; e.append(...children);
+    return e;
+  };
+
+  // Where the pictures are: after each change of scale, place and split.
   const place = () => {
     stage.classList.toggle("pixels", state.scale > 1);
     for (const e of stage.querySelectorAll("img"))
@@ -32,37 +37,34 @@ function viewer(root) {
     }
     root.querySelector(".percent").textContent = Math.round(state.scale * 100) + " %";
   };
-  const tag = (text, side) => {
-    const e = document.createElement("span");
-    e.className = "tag " + side; e.textContent = text; return e;
-  };
-  const box = (className, ...children) => {
-    const e = document.createElement("div");
-    e.className = className; e.append(...children); return e;
-  };
+  // Which pictures there are: after each change of the mode.
   const show = () => {
     stage.replaceChildren();
     if (state.mode === "flip") stage.append(picture(state.shown), tag(labels[state.shown], "left"));
     if (state.mode === "heat") stage.append(picture(2), tag(labels[2], "left"));
-    if (state.mode === "slider") {
-      const over = box("over", picture(1));
-      over.style.cssText = "position:absolute;inset:0";
-      stage.append(picture(0), over, tag(labels[0], "left"), tag(labels[1], "right"),
-                   box("divider"));
-    }
+    if (state.mode === "slider")
+      stage.append(picture(0), box("over", picture(1)), tag(labels[0], "left"),
+                   tag(labels[1], "right"), box("divider"));
     if (state.mode === "side")
-      [0, 1].forEach(i => {
+      for (const i of [0, 1]) {
         const half = box("half", picture(i), tag(labels[i], "left"));
         half.style.left = 50 * i + "%";
         stage.append(half);
-      });
+      }
     for (const b of root.querySelectorAll("[data-mode]"))
       b.setAttribute("aria-pressed", b.dataset.mode === state.mode);
     root.querySelector(".auto").setAttribute("aria-pressed", state.timer !== null);
     place();
   };
-  const stop = () => { clearInterval(state.timer); state.timer = null; };
-  const swap = () => { state.shown = 1 - state.shown; show(); };
+
+  const width = () => stage.clientWidth / (state.mode === "side" ? 2 : 1);
+  const center = () => [width() / 2, stage.clientHeight / 2];
+  const fit = () => {
+    if (!size.naturalWidth) return;
+    state.scale = Math.min(width() / size.naturalWidth, stage.clientHeight / size.naturalHeight);
+    state.x = state.y = 0;
+    place();
+  };
   const zoom = (factor, x, y) => {
     const scale = Math.min(Math.max(state.scale * factor, 0.02), 64);
     state.x = x - (x - state.x) * scale / state.scale;
@@ -70,31 +72,50 @@ function viewer(root) {
     state.scale = scale;
     place();
   };
-  const center = () => [stage.clientWidth / (state.mode === "side" ? 4 : 2),
-                        stage.clientHeight / 2];
-  for (const b of root.querySelectorAll("[data-mode]"))
-    b.onclick = () => {
-      const wasSide = state.mode === "side";
-      stop(); state.mode = b.dataset.mode; show();
-      if (wasSide !== (state.mode === "side")) fit();
-    };
-  root.querySelector(".swap").onclick = () => { stop(); state.mode = "flip"; swap(); };
-  root.querySelector(".auto").onclick = () => {
+  const stop = () => { clearInterval(state.timer); state.timer = null; };
+  const change = mode => {
+    const wasSide = state.mode === "side";
+    stop(); state.mode = mode; show();
+    if (wasSide !== (mode === "side")) fit();
+  };
+  const flip = () => { state.shown = 1 - state.shown; show(); };
+  const swap = () => { change("flip"); flip(); };
+  const blink = () => {
     const runs = state.timer !== null;
-    stop(); state.mode = "flip";
-    if (!runs) state.timer = setInterval(swap, 500);
+    change("flip");
+    if (!runs) state.timer = setInterval(flip, 500);
     show();
   };
+  const goTo = (x, y) => {
+    const reduction = Number(stage.dataset.reduction);
+    const [cx, cy] = center();
+    state.scale = 8 * reduction;
+    state.x = cx - x / reduction * state.scale;
+    state.y = cy - y / reduction * state.scale;
+    place();
+    stage.scrollIntoView({ block: "nearest" });
+  };
+
+  for (const b of root.querySelectorAll("[data-mode]")) b.onclick = () => change(b.dataset.mode);
+  root.querySelector(".swap").onclick = swap;
+  root.querySelector(".auto").onclick = blink;
   root.querySelector(".in").onclick = () => zoom(2, ...center());
   root.querySelector(".out").onclick = () => zoom(0.5, ...center());
   root.querySelector(".one").onclick = () => zoom(1 / state.scale, ...center());
   root.querySelector(".fit").onclick = fit;
+  stage.addEventListener("keydown", e => {
+    const action = { " ": swap, "+": () => zoom(2, ...center()), "-": () => zoom(0.5, ...center()),
+                     "0": fit }[e.key];
+    if (!action) return;
+    e.preventDefault();
+    action();
+  });
   stage.addEventListener("wheel", e => {
     e.preventDefault();
     const r = stage.getBoundingClientRect();
-    const half = state.mode === "side" ? r.width / 2 : r.width;
-    zoom(Math.exp(-e.deltaY / 400), (e.clientX - r.left) % half, e.clientY - r.top);
+    zoom(Math.exp(-e.deltaY / 400), (e.clientX - r.left) % width(), e.clientY - r.top);
   }, { passive: false });
+
   let drag = null;
   stage.addEventListener("pointerdown", e => {
     drag = { x: e.clientX, y: e.clientY, split: e.target.classList.contains("divider"), far: 0 };
@@ -110,42 +131,27 @@ function viewer(root) {
     place();
   });
   stage.addEventListener("pointerup", () => {
-    if (drag && drag.far < 4 && state.mode === "flip") { stop(); swap(); }
+    if (drag && drag.far < 4 && state.mode === "flip") swap();
     drag = null;
   });
-  stage.addEventListener("keydown", e => {
-    if (e.key === " ") { e.preventDefault(); stop(); state.mode = "flip"; swap(); }
-    if (e.key === "+") zoom(2, ...center());
-    if (e.key === "-") zoom(0.5, ...center());
-    if (e.key === "0") fit();
-  });
+
   for (const figure of root.querySelectorAll(".worst figure"))
     figure.onclick = () => figure.classList.toggle("large");
   for (const b of root.querySelectorAll(".go"))
-    b.onclick = e => {
-      e.stopPropagation();
-      const reduction = Number(stage.dataset.reduction);
-      state.scale = 8 * reduction;
-      const [cx, cy] = center();
-      state.x = cx - Number(b.dataset.x) / reduction * state.scale;
-      state.y = cy - Number(b.dataset.y) / reduction * state.scale;
-      place();
-      stage.scrollIntoView({ block: "nearest" });
-    };
+    b.onclick = e => { e.stopPropagation(); goTo(Number(b.dataset.x), Number(b.dataset.y)); };
+
   size.onload = () => { fit(); show(); };
   size.src = source[0];
   window.addEventListener("resize", place);
 }
-for (const root of document.querySelectorAll(".viewer")) viewer(root);
+
+const seen = new IntersectionObserver(entries => {
+  for (const entry of entries)
+    if (entry.isIntersecting) { seen.unobserve(entry.target); viewer(entry.target); }
+}, { rootMargin: "200px" });
+for (const root of document.querySelectorAll(".viewer")) seen.observe(root);
+
 for (const choice of document.querySelectorAll("select.layers")) {
   const views = [...choice.closest("section").querySelectorAll(".viewer")];
-  const pick = () => {
-    views.forEach((view, i) => { view.hidden = i !== choice.selectedIndex; });
-    views[choice.selectedIndex].querySelector(".fit").click();
-  };
-  choice.onchange = pick;
+  choice.onchange = () => views.forEach((view, i) => { view.hidden = i !== choice.selectedIndex; });
 }
-)js";
-}
-
-}  // namespace penumbra::diff
