@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/renderer/deposit.h"
-#include "core/profile/stopwatch.h"
+#include "apps/renderer/pass_clock.h"
 #include "denoise/combine.h"
 #include "denoise/joint_bilateral.h"
 #include "denoise/noise_estimate.h"
@@ -111,6 +111,13 @@ void prepare_scratch(const Film& film, int workers, FrameScratch& scratch) {
                            denoise::Scratch(scratch.window_width));
 }
 
+// --aa: sums become means.
+void average(int passes, const parallel::Arena& arena, Film& film) {
+    for_each_band(arena, film, [&](const PixelRect& band, int) {
+        scale_to_means(passes, band.y0 - film.window.y0, band.y1 - film.window.y0, film);
+    });
+}
+
 // --method stochastic: emission + S_N.
 void add_samples(const parallel::Arena& arena, Film& film) {
     for_each_band(arena, film, [&](const PixelRect& band, int) {
@@ -132,25 +139,23 @@ int frame_margin(const ImageSettings& image) {
     return std::max(margin.x, margin.y);
 }
 
-void finish_frame(const ImageSettings& image, const FrameContext& context, const Camera& camera,
-                  const parallel::Arena& arena, FrameScratch& scratch, Film& film,
+void finish_frame(const FrameInputs& frame, FrameScratch& scratch, Film& film,
                   FrameStatistics& statistics) {
-    profile::Stopwatch watch;
-    prepare_scratch(film, arena.threads(), scratch);
-    if (image.passes > 1)
-        for_each_band(arena, film, [&](const PixelRect& band, int) {
-            scale_to_means(image.passes, band.y0 - film.window.y0, band.y1 - film.window.y0, film);
-        });
+    const auto& [image, context, camera, arena, profile] = frame;
     const bool filters = image.denoise == Denoise::kNoiseDriven && image.method == Method::kRatio;
-    if (filters || film.wanted.contains(Aov::kE))
-        estimate_noise(image, context, arena, scratch, film);
-    statistics.passes[Pass::kNoise] = watch.restart();
+    {
+        const FramePass noise(Pass::kNoise, profile, statistics);
+        prepare_scratch(film, arena.threads(), scratch);
+        if (image.passes > 1) average(image.passes, arena, film);
+        if (filters || film.wanted.contains(Aov::kE))
+            estimate_noise(image, context, arena, scratch, film);
+    }
+    const FramePass filtering(Pass::kFilter, profile, statistics);
     if (filters)
         filter(image, context, camera, arena, scratch, film);
     else
         combine_film(context, arena, film);
     if (image.method == Method::kStochastic) add_samples(arena, film);
-    statistics.passes[Pass::kFilter] = watch.restart();
 }
 
 }  // namespace penumbra::renderer

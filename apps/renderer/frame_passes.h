@@ -21,10 +21,18 @@ struct FrameScratch {
     std::vector<denoise::Scratch> workers;
 };
 
+// What all passes of a frame know.
+struct FrameInputs {
+    const ImageSettings& image;
+    const FrameContext& context;
+    const Camera& camera;
+    const parallel::Arena& arena;
+    profile::Profile* profile;  // may be null
+};
+
 // The passes of a whole frame, after all its tiles: means of the --aa passes, noise estimate,
 // filter, combine.
-void finish_frame(const ImageSettings& image, const FrameContext& context, const Camera& camera,
-                  const parallel::Arena& arena, FrameScratch& scratch, Film& film,
+void finish_frame(const FrameInputs& frame, FrameScratch& scratch, Film& film,
                   FrameStatistics& statistics);
 
 }  // namespace penumbra::renderer

@@ -9,6 +9,7 @@
 #include "apps/renderer/deposit.h"
 #include "apps/renderer/frame_passes.h"
 #include "apps/renderer/jitter.h"
+#include "apps/renderer/pass_clock.h"
 #include "apps/renderer/tile_scratch.h"
 #include "core/error.h"
 #include "core/parallel/tiles.h"
@@ -27,9 +28,9 @@ std::uint64_t count_rays(const shadow::RayScratch& rays) {
     return count;
 }
 
-// Seconds that one worker spent per pass, on a cache line of its own.
+// What one worker counts, on a cache line of its own.
 struct alignas(64) WorkerCounts {
-    PassSeconds passes;
+    PassClock clock;
     std::uint64_t shadow_rays = 0;
 };
 
@@ -68,10 +69,11 @@ struct Renderer::State {
           scratch(static_cast<std::size_t>(arena.threads())),
           counts(static_cast<std::size_t>(arena.threads())) {
         if (!execution.isa) execution.isa = simd::best_isa();
+        arena.record(execution.profile);
     }
 
     [[nodiscard]] bool is_cancelled() const { return cancelled != nullptr && cancelled->load(); }
-    void evaluate_at(int frame);
+    void evaluate_at(int frame, FrameStatistics& statistics);
     void render_tiles(int pass, const FrameContext& context, Film& film,
                       FrameStatistics& statistics);
     void render_tile(const Tile& tile, const FrameContext& context, int worker, Film& film);
@@ -79,7 +81,8 @@ struct Renderer::State {
                       WorkerCounts& count);
 };
 
-void Renderer::State::evaluate_at(int frame) {
+void Renderer::State::evaluate_at(int frame, FrameStatistics& statistics) {
+    const FramePass evaluation(Pass::kEvaluate, execution.profile, statistics);
     evaluate(scene, times_of_frame(scene.animation, frame),
              {.width = image.width, .height = image.height}, view);
     camera = view.camera;
@@ -90,7 +93,6 @@ void Renderer::State::evaluate_at(int frame) {
 // S_N and U_N: one ray per pixel, light and sample at a time, so that rays fit the cache.
 void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context,
                                    TileScratch& tile_scratch, WorkerCounts& count) {
-    profile::Stopwatch watch;
     const shadow::RayInputs inputs{.frame = context,
                                    .tile = tile,
                                    .eye = view.camera.eye,
@@ -105,11 +107,12 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
                                    .index = sample,
                                    .count = image.samples_per_pixel},
                                   tile_scratch.rays);
-            count.passes[Pass::kRays] += watch.restart();
+            if (execution.on_rays) (*execution.on_rays)(tile, tile_scratch.rays);
+            count.clock.end(Pass::kRays);
             shadow::trace(occluders, execution.visibility, tile_scratch.rays);
-            count.passes[Pass::kTrace] += watch.restart();
+            count.clock.end(Pass::kTrace);
             shadow::accumulate(tile_scratch.rays, context.isa, tile_scratch.sums());
-            count.passes[Pass::kRays] += watch.restart();
+            count.clock.end(Pass::kRays);
             count.shadow_rays += count_rays(tile_scratch.rays);
         }
     }
@@ -120,40 +123,41 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
                                   Film& film) {
     TileScratch& s = scratch[static_cast<std::size_t>(worker)];
     WorkerCounts& count = counts[static_cast<std::size_t>(worker)];
-    profile::Stopwatch watch;
+    count.clock.begin_tile(tile);
 
     raster::rasterize(view, geometry, tile, context.isa, s.raster, s.visibility());
-    count.passes[Pass::kRasterize] += watch.restart();
+    count.clock.end(Pass::kRasterize);
 
     raster::resolve(view, geometry, context, tile, s.visibility(), s.surface());
     shadow::draw_lights(lights, view, context, tile, s.surface());
-    count.passes[Pass::kResolve] += watch.restart();
+    count.clock.end(Pass::kResolve);
 
     const ConstSurfaceView surface = to_const(s.surface());
     shadow::cull_lights(lights, view, context, surface, image.light_tolerance, s.lights);
     shadow::shade(lights, s.lights, view, context, surface, s.sums());
-    count.passes[Pass::kShade] += watch.restart();
+    count.clock.end(Pass::kShade);
 
     s.clear_samples();
     if (image.method != Method::kUnshadowed) trace_lights(tile, context, s, count);
 
-    watch.restart();
     deposit(tile, surface, to_const(s.sums()), context.pass, film);
-    count.passes[Pass::kDeposit] += watch.restart();
+    count.clock.end(Pass::kDeposit);
 }
 
 void Renderer::State::render_tiles(int pass, const FrameContext& context, Film& film,
                                    FrameStatistics& statistics) {
-    profile::Stopwatch watch;
-    jitter(camera, pass, image.passes, view.camera);
-    raster::prepare(view, context, film.window, arena, geometry);
-    statistics.passes[Pass::kSetup] += watch.restart();
-
+    {
+        const FramePass setup(Pass::kSetup, execution.profile, statistics);
+        jitter(camera, pass, image.passes, view.camera);
+        raster::prepare(view, context, film.window, arena, geometry);
+    }
+    const profile::Phase tiles(execution.profile, "tiles");
+    const profile::Stopwatch watch;
     const parallel::TileGrid grid(film.window);
     parallel::for_each_tile(
         arena, grid, execution.tile_order,
         [&](const Tile& tile, int worker) { render_tile(tile, context, worker, film); }, cancelled);
-    statistics.tiles_wall_seconds += watch.restart();
+    statistics.tiles_wall_seconds += watch.seconds();
 }
 
 Renderer::Renderer(const Scene& scene, const ImageSettings& image,
@@ -175,13 +179,15 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
     State& s = *state_;
     s.cancelled = cancelled;
     FrameStatistics statistics;
+    if (s.execution.profile) s.execution.profile->make_room();
+    const profile::Phase phase(s.execution.profile, "frame", {"frame", frame});
     const profile::Stopwatch whole;
-    profile::Stopwatch watch;
-    s.evaluate_at(frame);
-    statistics.passes[Pass::kEvaluate] = watch.restart();
+    s.evaluate_at(frame, statistics);
 
     prepare_film(s.image.width, s.image.height, *s.image.crop, frame_margin(s.image), wanted, film);
-    std::fill(s.counts.begin(), s.counts.end(), WorkerCounts{});
+    for (int worker = 0; worker < s.arena.threads(); ++worker)
+        s.counts[static_cast<std::size_t>(worker)] = {.clock =
+                                                          PassClock(s.execution.profile, worker)};
     FrameContext context{.width = s.image.width,
                          .height = s.image.height,
                          .frame = frame,
@@ -192,10 +198,11 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
         s.render_tiles(pass, context, film, statistics);
     }
     if (!s.is_cancelled())
-        finish_frame(s.image, context, s.camera, s.arena, s.frame_scratch, film, statistics);
+        finish_frame({s.image, context, s.camera, s.arena, s.execution.profile}, s.frame_scratch,
+                     film, statistics);
 
     for (const WorkerCounts& count : s.counts) {
-        statistics.passes += count.passes;
+        statistics.passes += count.clock.seconds();
         statistics.shadow_rays += count.shadow_rays;
     }
     for (const Instance& instance : s.view.instances)

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "core/frame/tile.h"
 #include "core/parallel/tiles.h"
+#include "core/profile/profile.h"
 #include "core/simd/isa.h"
 #include "denoise/settings.h"
 #include "shadow/occluders.h"
@@ -36,14 +38,20 @@ struct ImageSettings {
         1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
 };
 
-// What no pixel depends on; the last two are for tests.
+// Called with the rays of a tile, one light and one sample, before they are traced: from any worker
+// at any time, but with one tile from one worker.
+using RayObserver = std::function<void(const Tile& tile, const shadow::RayScratch& rays)>;
+
+// What no pixel depends on.
 struct ExecutionSettings {
     int threads = 0;  // 0: what the machine allows
     std::optional<simd::Isa> isa;
     shadow::TraceIsa trace_isa =
         shadow::TraceIsa::kAvx2;  // others: one ray in a million may differ
     parallel::TileOrder tile_order{.kind = parallel::TileOrder::Kind::kMorton};
-    shadow::Visibility visibility = shadow::Visibility::kTraced;
+    shadow::Visibility visibility = shadow::Visibility::kTraced;  // others: for tests
+    profile::Profile* profile = nullptr;   // where every frame's slices go, if anywhere
+    const RayObserver* on_rays = nullptr;  // called if not null
 };
 
 }  // namespace penumbra::renderer

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/parallel/thread_limits.h"
+#include "core/profile/profile.h"
 
 namespace penumbra::parallel {
 namespace {
@@ -56,6 +57,7 @@ struct Arena::Implementation {
 
     tbb::global_control limit;
     tbb::task_arena arena;
+    profile::Profile* profile = nullptr;
 };
 
 Arena::Arena(int threads) {
@@ -68,17 +70,28 @@ int Arena::threads() const {
     return implementation_->arena.max_concurrency();
 }
 
+void Arena::record(profile::Profile* profile) {
+    if (profile) profile->make_tracks(threads());
+    implementation_->profile = profile;
+}
+
 void Arena::for_each(int count, const std::function<void(int, int)>& body,
                      const std::atomic<bool>* cancelled) const {
+    profile::Profile* const profile = implementation_->profile;
+    const char* const phase = profile ? profile->phase() : nullptr;
     const auto run_range = [&](const tbb::blocked_range<int>& range) {
         const FlushDenormals flush;
         const int worker = tbb::this_task_arena::current_thread_index();
         for (int index = range.begin(); index != range.end(); ++index) {
             if (cancelled && cancelled->load(std::memory_order_relaxed)) return;
+            const profile::Scope task(profile, worker, profile::Kind::kTask, phase,
+                                      {"index", index});
             body(index, worker);
         }
     };
     implementation_->arena.execute([&] {
+        const profile::Scope loop(profile, tbb::this_task_arena::current_thread_index(),
+                                  profile::Kind::kLoop, phase, {"count", count});
         // One index is a tile or a band: coarse enough to be a task of its own.
         tbb::parallel_for(tbb::blocked_range<int>(0, std::max(0, count), 1), run_range,
                           tbb::simple_partitioner{});

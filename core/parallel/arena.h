@@ -6,6 +6,10 @@
 
 // The one place that owns threads.
 
+namespace penumbra::profile {
+class Profile;
+}
+
 namespace penumbra::parallel {
 
 // Threads to use when nobody says: the least of what the affinity mask, the cgroup quota (v1 and
@@ -33,6 +37,10 @@ class Arena {
     Arena& operator=(const Arena&) = delete;
 
     [[nodiscard]] int threads() const;
+
+    // From now on every loop is recorded, and each call of its body on the track of its worker.
+    // Null ends it. The profile must outlive that; loops must not run meanwhile.
+    void record(profile::Profile* profile);
 
     // Calls body(index, worker) once for each index in [0, count), in any order; worker in
     // [0, threads()) is never used by two calls at once: it selects scratch memory. Returns when

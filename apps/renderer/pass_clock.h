@@ -1,0 +1,68 @@
+#pragma once
+
+#include "apps/renderer/frame_statistics.h"
+#include "core/frame/tile.h"
+#include "core/profile/profile.h"
+
+// Where the passes' times come from: always the sums of the statistics, and a slice each where a
+// profile is kept.
+
+namespace penumbra::renderer {
+
+// One worker's clock of the tile passes. They follow each other without a gap, so that one reading
+// ends a pass and begins the next.
+class PassClock {
+  public:
+    PassClock() = default;
+    PassClock(profile::Profile* profile, int worker)
+        : track_(profile ? &profile->track(worker) : nullptr) {}
+
+    void begin_tile(const Tile& tile) {
+        x_ = tile.x0;
+        y_ = tile.y0;
+        begin_ = profile::now();
+    }
+    // The time since the tile began, or since the last call, was spent in this pass.
+    void end(Pass pass) {
+        const profile::Nanoseconds end = profile::now();
+        seconds_[pass] += 1e-9 * static_cast<double>(end - begin_);
+        if (track_)
+            track_->add({.name = name(pass).data(),
+                         .begin = begin_,
+                         .end = end,
+                         .first = {"x", x_},
+                         .second = {"y", y_},
+                         .kind = profile::Kind::kPass});
+        begin_ = end;
+    }
+    [[nodiscard]] const PassSeconds& seconds() const { return seconds_; }
+
+  private:
+    PassSeconds seconds_;
+    profile::Track* track_ = nullptr;
+    profile::Nanoseconds begin_ = 0;
+    int x_ = 0, y_ = 0;
+};
+
+// Its own lifetime as wall-clock seconds of a pass of the whole frame.
+class FramePass {
+  public:
+    FramePass(Pass pass, profile::Profile* profile, FrameStatistics& statistics)
+        : pass_(pass),
+          statistics_(statistics),
+          phase_(profile, name(pass).data()),
+          begin_(profile::now()) {}
+    ~FramePass() {
+        statistics_.passes[pass_] += 1e-9 * static_cast<double>(profile::now() - begin_);
+    }
+    FramePass(const FramePass&) = delete;
+    FramePass& operator=(const FramePass&) = delete;
+
+  private:
+    Pass pass_;
+    FrameStatistics& statistics_;
+    profile::Phase phase_;
+    profile::Nanoseconds begin_;
+};
+
+}  // namespace penumbra::renderer
