@@ -8,6 +8,7 @@
 
 #include "apps/cli/diff_json.h"
 #include "apps/cli/diff_options.h"
+#include "apps/cli/option_checks.h"
 #include "apps/cli/say.h"
 #include "apps/diff/html_report.h"
 #include "apps/diff/pairs.h"
@@ -16,6 +17,17 @@
 
 namespace penumbra::cli {
 namespace {
+
+constexpr const char* kFooter =
+    "Exit codes: 0 the same or within the limits, 1 different, 2 a missing file, no image or "
+    "wrong\n"
+    "options, 3 output failed. NaN, incomplete files, other sizes, channels or types always "
+    "fail.\n\n"
+    "Examples:\n"
+    "  penumbra diff golden.exr out.exr\n"
+    "  penumbra diff golden.exr out.exr --fail-above flip=0.02 --html report.html\n"
+    "  penumbra diff ref.####.exr out.####.exr --json report.json\n"
+    "  penumbra diff golden/ rendered/ --ignore-layers id,motion";
 
 // Of several pairs the gravest: a wrong input before a difference.
 int gravest(int a, int b) {
@@ -130,11 +142,14 @@ int run_diff(const DiffOptions& options) {
 
 std::shared_ptr<DiffOptions> add_diff_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DiffOptions>();
-    CLI::App* command = app.add_subcommand(
-        "diff",
-        "Compare images: 0 same or within limits, 1 different, 2 wrong input, 3 output failed");
+    CLI::App* command =
+        app.add_subcommand("diff", "Compare images and fail where they differ too much");
     declare_options(*command, *options);
-    command->callback([options, &exit_code] { exit_code = run_diff(*options); });
+    command->footer(kFooter);
+    command->callback([options, command, &exit_code] {
+        refuse_empty_values(*command);
+        exit_code = run_diff(*options);
+    });
     return options;
 }
 

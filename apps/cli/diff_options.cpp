@@ -1,15 +1,17 @@
 #include "apps/cli/diff_options.h"
 
+#include <limits>
+
+#include "apps/cli/option_checks.h"
 #include "core/error.h"
 
 namespace penumbra::cli {
 namespace {
 
-std::string metric_names(bool similarities) {
-    std::string names;
+std::vector<std::string> metric_names(std::optional<bool> similarities = std::nullopt) {
+    std::vector<std::string> names;
     for (const diff::MetricInfo& metric : diff::metric_table())
-        if (metric.is_similarity == similarities)
-            names += (names.empty() ? "" : ", ") + std::string(metric.name);
+        if (!similarities || metric.is_similarity == *similarities) names.emplace_back(metric.name);
     return names;
 }
 
@@ -23,51 +25,84 @@ diff::MetricSet chosen_metrics(const DiffOptions& options,
     return set;
 }
 
-}  // namespace
-
-void declare_options(CLI::App& command, DiffOptions& o) {
+void declare_images(CLI::App& command, DiffOptions& o) {
     command
         .add_option("REF", o.reference,
-                    "Reference: EXR, HDR, PNG or JPEG file, pattern (ref.####.exr) or folder")
+                    "The reference: an EXR, HDR, PNG or JPEG file, a pattern (ref.####.exr) or a "
+                    "folder")
+        ->type_name("IMAGE")
         ->required();
-    command.add_option("TEST", o.test, "What is compared with it: of the same kind")->required();
+    command.add_option("TEST", o.test, "What is compared with it: of the same kind")
+        ->type_name("IMAGE")
+        ->required();
+    command.option_defaults()->group("What is compared");
     command
-        .add_option("--fail-above", o.fail_above,
-                    "METRIC=VALUE, repeatable: fail where an error is above it: " +
-                        metric_names(false) + " [without thresholds any difference fails]")
-        ->allow_extra_args(false);
-    command
-        .add_option(
-            "--fail-below", o.fail_below,
-            "METRIC=VALUE, repeatable: fail where a similarity is below it: " + metric_names(true))
-        ->allow_extra_args(false);
-    command
-        .add_option("--pixel-threshold", o.pixel_threshold,
-                    "A pixel counts for `pixels` and `share` where a channel differs by more")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command
-        .add_option("--metrics", o.metrics,
-                    "Which to compute, a list with commas; those of thresholds always are [all]")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    command.add_option("--mask", o.mask,
-                       "Image of the same size: only pixels of at least 0.5 are compared");
+        .add_option("--mask", o.mask,
+                    "An image of the same size: only pixels of at least 0.5 are compared")
+        ->type_name("IMAGE");
     command
         .add_option("--ignore-layers", o.ignored_layers,
                     "Layers that are not compared, a list with commas; R G B A without a prefix "
                     "are the layer beauty")
+        ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--heatmap", o.heatmap,
-                       "Write the error map as PNG; '####' is the frame number of several files");
-    command.add_option("--json", o.json, "Write all numbers to this JSON file");
-    command.add_option("--html", o.html,
-                       "Write a page with pictures: flip, slider, zoom, the worst tiles");
+    command
+        .add_option("--metrics", o.metrics,
+                    "Which numbers to compute, a list with commas, besides those that have limits "
+                    "[all]")
+        ->check(list_of(metric_names()))
+        ->delimiter(',')
+        ->allow_extra_args(false);
+}
+
+void declare_limits(CLI::App& command, DiffOptions& o) {
+    command.option_defaults()->group("What fails: without limits, any difference");
+    command
+        .add_option("--fail-above", o.fail_above,
+                    "Fail where an error of a layer is above the limit, e.g. flip=0.02; repeatable")
+        ->type_name("METRIC=VALUE")
+        ->check(value_of(metric_names(false)))
+        ->allow_extra_args(false);
+    command
+        .add_option("--fail-below", o.fail_below,
+                    "Fail where a similarity is below the limit, e.g. psnr=40; repeatable")
+        ->type_name("METRIC=VALUE")
+        ->check(value_of(metric_names(true)))
+        ->allow_extra_args(false);
+    command
+        .add_option("--pixel-threshold", o.pixel_threshold,
+                    "The metrics `pixels` and `share` count pixels of which a channel differs by "
+                    "more than this")
+        ->check(in_range(0, std::numeric_limits<double>::max()))
+        ->capture_default_str();
+}
+
+void declare_reports(CLI::App& command, DiffOptions& o) {
+    command.option_defaults()->group("Reports");
+    command
+        .add_option(
+            "--html", o.html,
+            "Write a page with pictures of what differs: flip, slider, zoom, the worst tiles")
+        ->type_name("FILE.html");
+    command.add_option("--json", o.json, "Write all numbers")->type_name("FILE.json");
+    command
+        .add_option("--heatmap", o.heatmap,
+                    "Write a map of the errors; '####' stands for the frame number")
+        ->type_name("PATTERN.png");
+    command.option_defaults()->group("Running");
+}
+
+}  // namespace
+
+void declare_options(CLI::App& command, DiffOptions& o) {
+    declare_images(command, o);
+    declare_limits(command, o);
+    declare_reports(command, o);
     command
         .add_option("--threads", o.threads,
-                    "Threads; change no result [what affinity, cgroup quota and Slurm allow]")
-        ->check(CLI::Range(1, 1024));
+                    "Threads; changes no result [what affinity, cgroup quota and Slurm allow]")
+        ->check(in_range(1, 1024));
 }
 
 diff::CompareSettings interpret(const DiffOptions& o, std::optional<diff::Mask>& mask) {

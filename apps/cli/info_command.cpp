@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/cli/option_checks.h"
 #include "apps/cli/say.h"
 #include "core/error.h"
 #include "core/image/exr.h"
@@ -100,9 +101,17 @@ bool is_exr(const std::string& path) {
 
 std::shared_ptr<std::string> add_info_command(CLI::App& app, int& exit_code) {
     auto path = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene or an EXR file holds");
-    command->add_option("FILE", *path, "Scene (.json, .obj) or EXR file")->required();
-    command->callback([path, &exit_code] {
+    CLI::App* command =
+        app.add_subcommand("info", "Tell what a scene, a model or an EXR file holds");
+    command->add_option("FILE", *path, "A scene (.json), a model (.obj) or an EXR file")
+        ->type_name("FILE.json|obj|exr")
+        ->required();
+    command->footer(
+        "Examples:\n"
+        "  penumbra info shot.json        size, frames, models, materials, lights\n"
+        "  penumbra info shot.0001.exr    windows, channels, metadata; whether it is complete");
+    command->callback([path, command, &exit_code] {
+        refuse_empty_values(*command);
         require_regular_file(*path);
         const std::string extension = std::filesystem::path(*path).extension().string();
         if (is_exr(*path) || extension == ".exr")

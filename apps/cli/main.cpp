@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <new>
 
+#include "apps/cli/completion_command.h"
 #include "apps/cli/diff_command.h"
+#include "apps/cli/help_format.h"
 #include "apps/cli/info_command.h"
 #include "apps/cli/render_command.h"
 #include "apps/cli/say.h"
@@ -15,6 +17,15 @@ namespace {
 constexpr int kInputIsWrong = 2;
 constexpr int kInputOutputFailed = 3;
 
+constexpr const char* kFooter =
+    "`penumbra COMMAND --help` explains a command. Defaults stand in [brackets].\n\n"
+    "Exit codes:\n"
+    "  0            done, also when nothing was left to do\n"
+    "  1            a comparison failed\n"
+    "  2            the command line or an input file is wrong\n"
+    "  3            reading, writing or memory failed, or some frames of a range did\n"
+    "  130 143 129  interrupted by Ctrl-C, SIGTERM or SIGHUP; what is on disk is whole";
+
 int report(const std::string& message, int exit_code) {
     penumbra::cli::say(stderr, "error: {}\n", message);
     return exit_code;
@@ -22,14 +33,18 @@ int report(const std::string& message, int exit_code) {
 
 int run(int argc, char** argv) {
     CLI::App app{"Direct light from area lights with soft shadows, on the CPU.", "penumbra"};
-    app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
+    app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION, "Print the version and exit");
     app.require_subcommand(1);
-    app.get_formatter()->column_width(34);
+    app.set_help_flag("-h,--help", "Explain this and exit");
+    app.footer(kFooter);
+    app.formatter(std::make_shared<penumbra::cli::HelpFormat>());
 
     int exit_code = 0;
     const auto render = penumbra::cli::add_render_command(app, exit_code);
     const auto info = penumbra::cli::add_info_command(app, exit_code);
     const auto diff = penumbra::cli::add_diff_command(app, exit_code);
+    penumbra::cli::add_completion_command(app);
+    penumbra::cli::add_manual_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <map>
 
 #include "core/error.h"
@@ -16,16 +17,32 @@ std::string identity(const std::filesystem::path& path) {
     return (error ? std::filesystem::absolute(path, error) : canonical).string();
 }
 
+CLI::Validator only_said(const std::vector<std::string>& words, const char* after) {
+    return CLI::Validator([](const std::string&) { return std::string(); },
+                          fmt::format("{{{}}}{}", fmt::join(words, ","), after));
+}
+
 }  // namespace
 
 CLI::Validator in_range(double low, double high) {
+    const std::string range = high < std::numeric_limits<double>::max()
+                                  ? fmt::format("{} to {}", low, high)
+                                  : fmt::format("{} or more", low);
     return CLI::Validator(
-        [low, high](const std::string& text) -> std::string {
+        [low, high, range](const std::string& text) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
-            return fmt::format("expected a number from {} to {}, got \"{}\"", low, high, text);
+            return fmt::format("expected a number, {}, got \"{}\"", range, text);
         },
-        fmt::format("{} to {}", low, high));
+        range);
+}
+
+CLI::Validator list_of(const std::vector<std::string>& words) {
+    return only_said(words, ",...");
+}
+
+CLI::Validator value_of(const std::vector<std::string>& words) {
+    return only_said(words, "=VALUE");
 }
 
 void refuse_empty_values(const CLI::App& command) {

@@ -8,8 +8,14 @@
 
 namespace penumbra::cli {
 
-// A number from low to high; refuses NaN, which CLI::Range lets pass.
+// A number from low to high (no limit: the largest double); refuses NaN, which CLI::Range lets
+// pass.
 [[nodiscard]] CLI::Validator in_range(double low, double high);
+
+// What may be written, for help and completion; the command checks it. A list of these words with
+// commas, or NAME=VALUE with one of them as the name.
+[[nodiscard]] CLI::Validator list_of(const std::vector<std::string>& words);
+[[nodiscard]] CLI::Validator value_of(const std::vector<std::string>& words);
 
 // Throws InputError for an option or argument that was given as an empty text: an unset variable of
 // a script must not mean "not given".

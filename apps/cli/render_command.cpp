@@ -22,6 +22,12 @@ namespace {
 
 constexpr int kSomeFramesFailed = 3;
 
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  penumbra render shot.json -o out/shot.####.exr -f 1-240 --resume\n"
+    "  penumbra render dwarf.obj -o dwarf.exr --preview dwarf.png --aa 8\n"
+    "  penumbra render shot.json -f 1 -o shot.exr --aov beauty,W,N,Z --size 960x540";
+
 std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
     if (!options.frames.empty()) return renderer::parse_frame_list(options.frames);
     std::vector<int> frames;
@@ -105,6 +111,7 @@ std::shared_ptr<RenderOptions> add_render_command(CLI::App& app, int& exit_code)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "Render frames to EXR");
     declare_options(*command, *options);
+    command->footer(kFooter);
     command->callback([options, command, &exit_code] {
         refuse_empty_values(*command);
         exit_code = render(*options);

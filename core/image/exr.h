@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,9 +19,9 @@ namespace penumbra::image {
 enum class ExrCompression { kNone, kRle, kZips, kZip, kPiz, kDwaa };
 enum class ExrType { kUint, kHalf, kFloat };
 
-// Names as on the command line: none, rle, zips, zip, piz, dwaa. `parse` throws InputError.
+// All of them, and their names as on the command line: none, rle, zips, zip, piz, dwaa.
+[[nodiscard]] std::span<const ExrCompression> exr_compressions();
 [[nodiscard]] std::string_view name(ExrCompression compression);
-[[nodiscard]] ExrCompression parse_exr_compression(std::string_view text);
 [[nodiscard]] std::string_view name(ExrType type);
 
 // Pixels [x0, x1) x [y0, y1), y down. EXR stores the last pixel instead of the end; this does not.

@@ -137,7 +137,8 @@ check "an empty scene name" refuses 2 "SCENE" "$penumbra" render ""
 bad_option "a frame on its scene" "--output" -o scene.json
 bad_option "a frame on its model" "--output" -o ./ok.obj
 bad_option "statistics on a frame" "--stats" --stats ./x.exr
-bad_option "frames on each other" "--output" -f 1 -o x.exr --preview x.exr
+bad_option "frames on each other" "--output" -f 1 -o x.png --preview x.png
+bad_option "a preview that is no PNG" "ends in .png" -f 1 --preview x.jpg
 printf '\x76\x2f\x31\x01' >stub.exr
 check "info on a truncated EXR" refuses 2 "stub.exr" "$penumbra" info stub.exr
 check "info on nothing" refuses 2 "nothing.exr" "$penumbra" info nothing.exr
