@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 
+#include "apps/cli/check_command.h"
 #include "apps/cli/completion_command.h"
 #include "apps/cli/diff_command.h"
 #include "apps/cli/help_format.h"
@@ -43,6 +44,7 @@ int run(int argc, char** argv) {
     const auto render = penumbra::cli::add_render_command(app, exit_code);
     const auto info = penumbra::cli::add_info_command(app, exit_code);
     const auto diff = penumbra::cli::add_diff_command(app, exit_code);
+    const auto check = penumbra::cli::add_check_command(app, argv[0], exit_code);
     penumbra::cli::add_completion_command(app);
     penumbra::cli::add_manual_command(app);
     try {

@@ -25,10 +25,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-std::string data_uri(const image::Picture& picture) {
-    return "data:image/png;base64," + base64(image::encode_png(picture));
-}
-
 std::string number(const std::optional<double>& value) {
     if (!value) return "";
     return std::isinf(*value) ? "&infin;" : fmt::format("{:.6g}", *value);
@@ -50,7 +46,7 @@ std::string worst_of(const LayerReport& layer) {
         html += "<figure><div class=\"trio\">";
         for (const image::Picture* picture :
              {&tile.pictures.reference, &tile.pictures.test, &tile.pictures.heat})
-            html += fmt::format("<img alt=\"\" src=\"{}\">", data_uri(*picture));
+            html += fmt::format("<img alt=\"\" src=\"{}\">", html_data_uri(*picture));
         const Block& block = tile.block;
         html += fmt::format(
             "</div><figcaption>({}, {}) mean error {:.4g} <button class=\"go\" data-x=\"{}\" "
@@ -67,11 +63,16 @@ std::string viewer_of(const LayerReport& layer, bool is_hidden) {
     return fmt::format(
         "<div class=\"viewer\"{}>{}<div class=\"stage\" tabindex=\"0\" data-reduction=\"{}\" "
         "data-reference=\"{}\" data-test=\"{}\" data-heat=\"{}\"></div>\n{}</div>\n",
-        is_hidden ? " hidden" : "", kControls, layer.reduction, data_uri(layer.pictures->reference),
-        data_uri(layer.pictures->test), data_uri(layer.pictures->heat), worst_of(layer));
+        is_hidden ? " hidden" : "", kControls, layer.reduction,
+        html_data_uri(layer.pictures->reference), html_data_uri(layer.pictures->test),
+        html_data_uri(layer.pictures->heat), worst_of(layer));
 }
 
 }  // namespace
+
+std::string html_data_uri(const image::Picture& picture) {
+    return "data:image/png;base64," + base64(image::encode_png(picture));
+}
 
 std::string html_escaped(std::string_view text) {
     std::string result;

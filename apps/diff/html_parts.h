@@ -11,6 +11,8 @@
 namespace penumbra::diff {
 
 [[nodiscard]] std::string html_escaped(std::string_view text);
+// What the src of an <img> may be.
+[[nodiscard]] std::string html_data_uri(const image::Picture& picture);
 
 // The page up to its heading, style sheet included, and from the script to the end.
 [[nodiscard]] std::string html_begin(std::string_view title);

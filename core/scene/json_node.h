@@ -47,6 +47,7 @@ class Node {
     // ---- values
     [[nodiscard]] bool is_null() const { return value_->kind == Value::Kind::kNull; }
     [[nodiscard]] bool is_number() const { return value_->kind == Value::Kind::kNumber; }
+    [[nodiscard]] bool is_list() const { return value_->kind == Value::Kind::kArray; }
     [[nodiscard]] double number(Range range = {}) const;
     [[nodiscard]] int integer(int low, int high) const;
     [[nodiscard]] bool boolean() const;
