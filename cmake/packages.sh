@@ -7,7 +7,10 @@ PENUMBRA_BUILD_PACKAGES=(
     libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libstb-dev
     libdeflate-dev
 )
-PENUMBRA_TEST_PACKAGES=(doctest-dev libbenchmark-dev glmark2-data clang-format clang-tidy)
+PENUMBRA_TEST_PACKAGES=(
+    doctest-dev libbenchmark-dev glmark2-data clang-format clang-tidy
+    python3 chromium chromium-driver zsh groff-base
+)
 
 install_packages() {
     local missing=()

@@ -71,8 +71,9 @@ _penumbra() {
             _penumbra_enter "$command" "$word" && position=0 || ((position++))
         fi
     done
-    _penumbra_value "$command" "$previous" && return
-    if [[ $current == -* ]]; then
+    if _penumbra_has_value "$command" "$previous"; then
+        _penumbra_value "$command" "$previous"
+    elif [[ $current == -* ]]; then
         _penumbra_options "$command"
     else
         _penumbra_argument "$command" "$position"

@@ -19,6 +19,13 @@ std::string escaped(const std::string& text, std::string_view special) {
     return result;
 }
 
+// A single ending in parentheses would be a qualifier.
+std::string files_of(const std::vector<std::string>& endings) {
+    if (endings.empty()) return "_files";
+    if (endings.size() == 1) return fmt::format("_files -g \"*.(#i){}\"", endings.front());
+    return fmt::format("_files -g \"*.(#i)({})\"", fmt::join(endings, "|"));
+}
+
 std::string action_of(const OptionEntry& option) {
     switch (option.kind) {
         case ValueKind::kWord:
@@ -28,9 +35,7 @@ std::string action_of(const OptionEntry& option) {
         case ValueKind::kAssignment:
             return fmt::format(" compadd -S = -- {}", fmt::join(option.words, " "));
         case ValueKind::kFile:
-            return option.endings.empty()
-                       ? "_files"
-                       : fmt::format("_files -g \"(#i)*.({})\"", fmt::join(option.endings, "|"));
+            return files_of(option.endings);
         case ValueKind::kFolder:
             return "_files -/";
         case ValueKind::kNone:

@@ -6,6 +6,9 @@ source_dir=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+for file in bash-completion/completions/penumbra zsh/site-functions/_penumbra man/man1/penumbra.1; do
+    [ -s "$work/prefix/share/$file" ] || { echo "share/$file is missing"; echo "0 passed, 1 failed, 0 skipped"; exit 1; }
+done
 if cmake -S "$source_dir" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
        -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/log" 2>&1 &&
    cmake --build "$work/build" >"$work/log" 2>&1 && "$work/build/consumer" >"$work/log" 2>&1; then
