@@ -35,6 +35,8 @@ struct Block {
     Vec position, normal;
     SeenPolygon<F> seen;
     PolygonSampler<F> sampler;
+    Vec2<F> random;
+    Vec opposite;         // of the sampler's apex, in the direction of the sample
     Vec place;            // of the sample, relative to the light's first vertex
     Vec view, direction;  // of eye and sample, in the frame of the shading normal
     Brdf<F> brdf;
@@ -80,12 +82,17 @@ void load_material(const RayKernelInputs& kernel, int y, Block& block, const Fra
     block.view = frame.to_local(normalize(broadcast<F>(kernel.inputs->eye) - block.position));
 }
 
-// A point of the light, by its solid angle.
-[[gnu::flatten]] void choose_by_light(const RayKernelInputs& kernel, int y, Block& block) {
-    const Vec2<F> random = random_numbers(kernel, block.x, y);
-    block.place = sample_polygon(kernel.shape, block.seen, block.sampler, random);
+// A point of the light, by its solid angle, in three stages.
+[[gnu::flatten]] void choose_side(const RayKernelInputs& kernel, int y, Block& block) {
+    block.random = random_numbers(kernel, block.x, y);
+    block.opposite = choose_opposite(kernel.shape, block.seen, block.sampler, block.random.x);
+}
+[[gnu::flatten]] void choose_place(const RayKernelInputs& kernel, int y, Block& block) {
+    load_material(kernel, y, block, frame_from_normal(block.normal));
+    block.place = choose_between(block.seen, block.sampler, block.opposite, block.random.y);
+}
+[[gnu::flatten]] void look_at_place(Block& block) {
     const Frame<F> frame = frame_from_normal(block.normal);
-    load_material(kernel, y, block, frame);
     block.direction = frame.to_local(normalize(block.seen.vertices[0] + block.place));
 }
 
@@ -144,9 +151,13 @@ std::uint64_t generate_row(const RayKernelInputs& kernel, int y, shadow::RayScra
         if (see_light(kernel, y, blocks[count])) ++count;
     }
     for (int i = 0; i < count; ++i) measure_light(kernel, blocks[i]);
-    for (int i = 0; i < count; ++i)
-        kernel.from_brdf ? choose_by_brdf(kernel, y, blocks[i])
-                         : choose_by_light(kernel, y, blocks[i]);
+    if (kernel.from_brdf) {
+        for (int i = 0; i < count; ++i) choose_by_brdf(kernel, y, blocks[i]);
+    } else {
+        for (int i = 0; i < count; ++i) choose_side(kernel, y, blocks[i]);
+        for (int i = 0; i < count; ++i) choose_place(kernel, y, blocks[i]);
+        for (int i = 0; i < count; ++i) look_at_place(blocks[i]);
+    }
     std::uint64_t active = 0;
     for (int i = 0; i < count; ++i)
         active |= static_cast<std::uint64_t>(weigh(kernel, y, blocks[i], scratch)) << blocks[i].x;

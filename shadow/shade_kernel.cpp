@@ -18,7 +18,7 @@ void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& v) {
     simd::store(planes[2].row(y) + x, v.z);
 }
 
-shadow::Unshadowed<F> shade_block(const shadow::ShadeJob& job, int x, int y) {
+[[gnu::flatten]] shadow::Unshadowed<F> shade_block(const shadow::ShadeJob& job, int x, int y) {
     const ConstSurfaceView& surface = job.surface;
     const shadow::ShadingPoint<F> point{load3(surface.position, x, y),
                                         load3(surface.normal, x, y),

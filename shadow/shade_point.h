@@ -51,8 +51,9 @@ template <class F>
 void add_light(const PolygonShape<float>& shape, const Vec3f& radiance, const SeenPolygon<F>& seen,
                const Vec3<F>& normal, const ShadingLobes<F>& lobes, Unshadowed<F>& sum) {
     const Vec3<F> light = broadcast<F>(radiance);
-    sum.diffuse = fma(light, lambert_form_factor(shape, seen, normal), sum.diffuse);
-    sum.glossy = fma(light, ltc_form_factor(shape, seen, lobes.specular), sum.glossy);
+    const FormFactors<F> arriving = form_factors(shape, seen, normal, lobes.specular);
+    sum.diffuse = fma(light, arriving.lambert, sum.diffuse);
+    sum.glossy = fma(light, arriving.ltc, sum.glossy);
 }
 
 // The unshadowed light of one polygon at one point: radiance towards the viewer.

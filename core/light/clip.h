@@ -71,14 +71,14 @@ HorizonCrossings<F> horizon_crossings(const Vec3<F>* vertices, const F* heights,
 // below collapse into the crossing where the boundary leaves, and the crossing where it enters is
 // inserted behind them, which moves what follows by one slot.
 template <class F>
-ClippedPolygon<F> clip_by_heights(const Vec3<F>* vertices, const F* heights, int count) {
+void clip_by_heights(const Vec3<F>* vertices, const F* heights, int count,
+                     ClippedPolygon<F>& clipped) {
     const detail::HorizonCrossings<F> crossings =
         detail::horizon_crossings(vertices, heights, count);
     const Vec3<F> zero{F(0), F(0), F(0)};
     F highest = heights[0];
     for (int i = 1; i < count; ++i) highest = simd::max(highest, heights[i]);
 
-    ClippedPolygon<F> clipped;
     clipped.count = count + 1;
     clipped.visible = highest > F(0);
     Vec3<F> previous = zero;
@@ -104,7 +104,6 @@ ClippedPolygon<F> clip_by_heights(const Vec3<F>* vertices, const F* heights, int
         previous_height = current_height;
         previous_below = below;
     }
-    return clipped;
 }
 
 // Clips to z >= 0: vertices are relative to the shading point, in a frame whose z axis is its
@@ -113,7 +112,8 @@ template <class F>
 ClippedPolygon<F> clip_to_horizon(const Vec3<F>* vertices, int count) {
     F heights[kMaxClippedVertices];
     for (int i = 0; i < count; ++i) heights[i] = vertices[i].z;
-    ClippedPolygon<F> clipped = clip_by_heights(vertices, heights, count);
+    ClippedPolygon<F> clipped;
+    clip_by_heights(vertices, heights, count, clipped);
     for (int i = 0; i < clipped.count; ++i) clipped.vertices[i].z = clipped.heights[i];
     return clipped;
 }

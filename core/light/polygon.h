@@ -182,42 +182,46 @@ F small_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, co
            F(static_cast<T>(0.25 * 0.318309886183790672) * light.area);
 }
 
-// Mean squared angular radius in the lobe's space, roughly.
+// The mean squared radius in the lobe's space and the squared distance: their ratio is the squared
+// angular radius, roughly.
+template <class F>
+struct AngularSize {
+    F squared_radius, squared_distance;
+    [[nodiscard]] simd::MaskOf<F> is_below(F angle) const {
+        return squared_radius < angle * angle * squared_distance;
+    }
+};
+
 template <class F, class T, class Lobe>
-F squared_angular_size(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe) {
+AngularSize<F> angular_size(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                            const Lobe& lobe) {
     F squared_spread = F(light.squared_spread);
     if constexpr (Lobe::kTransforms)
         squared_spread = F(0.5f) * (length_squared(lobe.direction(in_lanes<F>(light.spread[0]))) +
                                     length_squared(lobe.direction(in_lanes<F>(light.spread[1]))));
-    const F squared_distance = length_squared(lobe.direction(seen.center));
-    return squared_spread / simd::max(squared_distance, F(1e-36f));
+    return {squared_spread, length_squared(lobe.direction(seen.center))};
 }
 
 // ---- polygons that a horizon cuts --------------------------------------------------------------
 
-// The part above the true horizon and above the lobe's own one, as offsets from the first vertex.
-template <class F, class T, class Lobe>
-ClippedPolygon<F> clip_to_lobe(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                               const Lobe& lobe) {
+// The part above the true horizon, as offsets from the first vertex. The same for all lobes:
+// clipped when the first of them asks, recognised by its count.
+template <class F, class T>
+const ClippedPolygon<F>& horizon_part(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                                      ClippedPolygon<F>& above) {
+    if (above.count != 0) return above;
     Vec3<F> offsets[kMaxPolygonVertices];
     for (int i = 0; i < light.count; ++i) offsets[i] = in_lanes<F>(light.offsets[i]);
-    ClippedPolygon<F> part = clip_by_heights(offsets, seen.heights, light.count);
-    if constexpr (Lobe::kTransforms) {
-        F heights[kMaxClippedVertices];
-        for (int i = 0; i < part.count; ++i)
-            heights[i] = lobe.height(lobe.direction(seen.vertices[0] + part.vertices[i]));
-        const auto above = part.visible;
-        part = clip_by_heights(part.vertices, heights, part.count);
-        part.visible = part.visible & above;
-    }
-    return part;
+    clip_by_heights(offsets, seen.heights, light.count, above);
+    return above;
 }
 
 template <class F, class Lobe>
 F clipped_edge_sum(const ClippedPolygon<F>& part, const Vec3<F>& origin, const Lobe& lobe) {
-    Vec3<F> directions[kMaxClippedVertices] = {};
+    Vec3<F> directions[kMaxClippedVertices];
     F weights[kMaxClippedVertices];
-    for (int i = 0; i < part.count; ++i) directions[i] = lobe.direction(origin + part.vertices[i]);
+    directions[0] = lobe.direction(origin + part.vertices[0]);
+    for (int i = 1; i < part.count; ++i) directions[i] = lobe.direction(origin + part.vertices[i]);
     edge_weights(directions, part.count, weights);
     Vec3<F> edges{F(0), F(0), F(0)};
     Vec3<F> moments{F(0), F(0), F(0)};
@@ -254,51 +258,83 @@ F clipped_small_form_factor(const PolygonShape<T>& light, const ClippedPolygon<F
                           point_kernel(lobe, lobe.direction(origin + fma(c, rest, b * place)));
             mean = simd::fma(sum, F(kWeight[ring]), mean);
         }
-        total = simd::fma(mean, simd::max(dot(normal, cross(b, c)), F(0)), total);
+        total = simd::fma(mean, simd::max(dot(normal, cross(b, c - b)), F(0)), total);
     }
     return total * (seen.distance * lobe.determinant()) * F(T(0.5 * 0.318309886183790672));
 }
 
 template <class F, class T, class Lobe>
-F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
-                  F squared_size) {
-    const auto small = squared_size < F(kSmallCutLight<T> * kSmallCutLight<T>);
-    const ClippedPolygon<F> part = clip_to_lobe(light, seen, lobe);
-    F result = clipped_edge_sum(part, seen.vertices[0], lobe) *
-               (seen.winding * F(T(0.5 * 0.318309886183790672)));
-    if (simd::any(small))
-        result = simd::select(small, clipped_small_form_factor(light, part, seen, lobe), result);
-    return simd::select(part.visible, result, F(0));
+F part_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
+                   const simd::MaskOf<F>& small, const ClippedPolygon<F>& part) {
+    const F result = clipped_edge_sum(part, seen.vertices[0], lobe) *
+                     (seen.winding * F(T(0.5 * 0.318309886183790672)));
+    if (simd::none(small)) return result;
+    return simd::select(small, clipped_small_form_factor(light, part, seen, lobe), result);
+}
+
+// Of a cosine's part above the horizon, which is its own.
+template <class F, class T>
+F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                  const CosineLobe<F>& lobe, const simd::MaskOf<F>& small,
+                  const ClippedPolygon<F>& above) {
+    return simd::select(above.visible, part_form_factor(light, seen, lobe, small, above), F(0));
+}
+
+// Of what lies above the lobe's own horizon too.
+template <class F, class T>
+F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                  const TransformedLobe<F>& lobe, const simd::MaskOf<F>& small,
+                  const ClippedPolygon<F>& above) {
+    F heights[kMaxClippedVertices];
+    F highest = F(0);
+    F lowest = F(0);
+    for (int i = 0; i < above.count; ++i) {
+        heights[i] = lobe.height(lobe.direction(seen.vertices[0] + above.vertices[i]));
+        highest = simd::max(heights[i], highest);
+        lowest = simd::min(heights[i], lowest);
+    }
+    const auto visible = above.visible & (highest > F(0));
+    // Cutting nothing off would only repeat a vertex, and an edge without length adds nothing.
+    if (simd::none(visible & (lowest < F(0))))
+        return simd::select(visible, part_form_factor(light, seen, lobe, small, above), F(0));
+    ClippedPolygon<F> part;
+    clip_by_heights(above.vertices, heights, above.count, part);
+    return simd::select(visible, part_form_factor(light, seen, lobe, small, part), F(0));
 }
 
 template <class F, class T, class Lobe>
-F form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe) {
+F form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
+              ClippedPolygon<F>& above) {
     auto lit = seen.lit;
     auto cut = seen.crosses_horizon;
     Vec3<F> directions[kMaxPolygonVertices];
     if constexpr (Lobe::kTransforms) {
-        auto above = lit & (!lit);
+        auto peeks_out = lit & (!lit);
         for (int i = 0; i < light.count; ++i) {
             directions[i] = lobe.direction(seen.vertices[i]);
             const auto below = lobe.height(directions[i]) < F(0);
-            above = above | (!below);
+            peeks_out = peeks_out | (!below);
             cut = cut | below;
         }
-        lit = lit & above;
+        lit = lit & peeks_out;
     } else {
         for (int i = 0; i < light.count; ++i) directions[i] = seen.vertices[i];
     }
     if (!simd::any(lit)) return F(0);
-    const F squared_size = squared_angular_size(light, seen, lobe);
-    const auto small = squared_size < F(kSmallLight<T> * kSmallLight<T>);
+    const AngularSize<F> size = angular_size(light, seen, lobe);
+    const auto small = size.is_below(F(kSmallLight<T>));
     F result = F(0);
     if (simd::any(lit & !(cut | small)))
         result = edge_sum(light, seen, lobe, directions) *
                  (seen.winding * F(T(0.5 * 0.318309886183790672)));
     if (simd::any(lit & small & (!cut)))
         result = simd::select(small, small_form_factor(light, seen, lobe), result);
-    if (simd::any(lit & cut))
-        result = simd::select(cut, cut_form_factor(light, seen, lobe, squared_size), result);
+    if (simd::any(lit & cut)) {
+        const auto small_cut = size.is_below(F(kSmallCutLight<T>));
+        const F part =
+            cut_form_factor(light, seen, lobe, small_cut, horizon_part(light, seen, above));
+        result = simd::select(cut, part, result);
+    }
     return simd::select(lit, simd::saturate(result), F(0));
 }
 
@@ -330,13 +366,28 @@ SeenPolygon<F> see_polygon(const PolygonShape<T>& light, const Vec3<F>& point,
 template <class F, class T>
 F lambert_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
                       const Vec3<F>& normal) {
-    return detail::form_factor(light, seen, CosineLobe<F>{normal});
+    ClippedPolygon<F> above;
+    return detail::form_factor(light, seen, CosineLobe<F>{normal}, above);
 }
 
 template <class F, class T>
 F ltc_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
                   const TransformedLobe<F>& lobe) {
-    return detail::form_factor(light, seen, lobe);
+    ClippedPolygon<F> above;
+    return detail::form_factor(light, seen, lobe, above);
+}
+
+// Both for the price of one clip.
+template <class F>
+struct FormFactors {
+    F lambert, ltc;
+};
+template <class F, class T>
+FormFactors<F> form_factors(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                            const Vec3<F>& normal, const TransformedLobe<F>& lobe) {
+    ClippedPolygon<F> above;
+    const F lambert = detail::form_factor(light, seen, CosineLobe<F>{normal}, above);
+    return {lambert, detail::form_factor(light, seen, lobe, above)};
 }
 
 }  // namespace penumbra

@@ -43,6 +43,15 @@ template <class F, class T>
 Vec3<F> sample_polygon(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
                        const PolygonSampler<F>& sampler, const Vec2<F>& random);
 
+// The same in two steps, for loops that take several points through each: the place on a triangle's
+// side opposite the apex, then the place between the two.
+template <class F, class T>
+Vec3<F> choose_opposite(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                        const PolygonSampler<F>& sampler, F random);
+template <class F>
+Vec3<F> choose_between(const SeenPolygon<F>& seen, const PolygonSampler<F>& sampler,
+                       const Vec3<F>& opposite, F random);
+
 // Where a direction from the point (unit, above the horizon) meets the light.
 template <class F>
 struct PolygonHit {
@@ -233,13 +242,13 @@ PolygonSampler<F> make_polygon_sampler(const PolygonShape<T>& light, const SeenP
         const SeenCorner<F> end = see_corner(seen, detail::in_lanes<F>(light.offsets[next]));
         // An uncut fan has its apex at vertex 0: the two edges there span no triangle.
         const bool touches_apex = i == 0 || next == 0;
+        const auto spans =
+            seen.lit & !(seen.heights[next] < F(0)) & (cut | simd::MaskOf<F>(!touches_apex));
         F determinant = F(0), half = F(0);
-        if (any_cut || !touches_apex) {
+        if (simd::any(spans)) {
             const auto below = seen.heights[i] < F(0);
             const SeenCorner<F> start = any_cut ? select_corner(below, entry, corner) : corner;
             determinant = unit_determinant(light, seen, apex, start, end);
-            const auto spans =
-                seen.lit & !(seen.heights[next] < F(0)) & (cut | simd::MaskOf<F>(!touches_apex));
             half = simd::select(spans, half_solid_angle(determinant, apex, start, end), F(0));
         }
         sampler.inverse_distances[next] = end.inverse_distance;
@@ -253,16 +262,28 @@ PolygonSampler<F> make_polygon_sampler(const PolygonShape<T>& light, const SeenP
 }
 
 template <class F, class T>
-Vec3<F> sample_polygon(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                       const PolygonSampler<F>& sampler, const Vec2<F>& random) {
+Vec3<F> choose_opposite(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                        const PolygonSampler<F>& sampler, F random) {
     using namespace sampling_detail;
-    const ChosenTriangle<F> triangle = choose_triangle(light, seen, sampler, random.x);
+    const ChosenTriangle<F> triangle = choose_triangle(light, seen, sampler, random);
     const SeenCorner<F> apex = see_corner(seen, sampler.apex.place, sampler.apex.inverse_distance);
     const F along = sub_triangle_place(triangle, apex);
-    const Vec3<F> side = triangle.end.place - triangle.start.place;
-    const SeenCorner<F> opposite = see_corner(seen, fma(side, along, triangle.start.place));
-    const F outward = arc_place(apex, opposite, random.y);
-    return fma(opposite.place - apex.place, outward, apex.place);
+    return fma(triangle.end.place - triangle.start.place, along, triangle.start.place);
+}
+
+template <class F>
+Vec3<F> choose_between(const SeenPolygon<F>& seen, const PolygonSampler<F>& sampler,
+                       const Vec3<F>& opposite, F random) {
+    using namespace sampling_detail;
+    const SeenCorner<F> apex = see_corner(seen, sampler.apex.place, sampler.apex.inverse_distance);
+    const F outward = arc_place(apex, see_corner(seen, opposite), random);
+    return fma(opposite - apex.place, outward, apex.place);
+}
+
+template <class F, class T>
+Vec3<F> sample_polygon(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                       const PolygonSampler<F>& sampler, const Vec2<F>& random) {
+    return choose_between(seen, sampler, choose_opposite(light, seen, sampler, random.x), random.y);
 }
 
 template <class F, class T>

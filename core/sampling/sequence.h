@@ -5,6 +5,7 @@
 
 #include "core/frame/frame_context.h"
 #include "core/math/vec.h"
+#include "core/simd/reverse_bits.h"
 
 // Random numbers: Owen-scrambled Sobol points in Z order of the pixels.
 //
@@ -57,15 +58,6 @@ Vec2<F> sequence_point(const Sequence& sequence, simd::UintOf<F> x, simd::UintOf
 
 namespace sequence_detail {
 
-template <class U>
-U reverse_bits(U x) {
-    x = ((x >> 1) & U(0x55555555u)) | ((x & U(0x55555555u)) << 1);
-    x = ((x >> 2) & U(0x33333333u)) | ((x & U(0x33333333u)) << 2);
-    x = ((x >> 4) & U(0x0f0f0f0fu)) | ((x & U(0x0f0f0f0fu)) << 4);
-    x = ((x >> 8) & U(0x00ff00ffu)) | ((x & U(0x00ff00ffu)) << 8);
-    return (x >> 16) | (x << 16);
-}
-
 // Moves bit i to bit 2 i.
 template <class U>
 U spread_bits(U x) {
@@ -114,6 +106,7 @@ template <class F>
 Vec2<F> sequence_point(const Sequence& sequence, simd::UintOf<F> x, simd::UintOf<F> y,
                        std::uint32_t sample) {
     using namespace sequence_detail;
+    using simd::reverse_bits;
     using U = simd::UintOf<F>;
     const U z_order = spread_bits(x) | (spread_bits(y) << 1);
     const U ordered = (z_order << sequence.sample_bits) | U(sample);

@@ -127,7 +127,7 @@ double median(std::vector<double> values) {
 }
 
 struct Samples {
-    std::vector<double> g_buffer, shadow, filter, frame, evaluate;
+    std::vector<double> g_buffer, shadow, shade, rays, trace, filter, frame, evaluate;
     std::vector<double> bare_primary, bare_shadow;
     std::vector<double> ratio_g_buffer, excess_shadow;
 };
@@ -185,6 +185,9 @@ void run(const Scene& scene, int pairs, int threads) {
         all.g_buffer.push_back(s.passes[Pass::kSetup] +
                                tile_share(s, {Pass::kRasterize, Pass::kResolve}));
         all.shadow.push_back(tile_share(s, {Pass::kShade, Pass::kRays, Pass::kTrace}));
+        all.shade.push_back(tile_share(s, {Pass::kShade}));
+        all.rays.push_back(tile_share(s, {Pass::kRays}));
+        all.trace.push_back(tile_share(s, {Pass::kTrace}));
         all.filter.push_back(s.passes[Pass::kNoise] + s.passes[Pass::kFilter]);
         all.evaluate.push_back(s.passes[Pass::kEvaluate]);
         all.frame.push_back(s.render_seconds);
@@ -208,6 +211,9 @@ void run(const Scene& scene, int pairs, int threads) {
     row("  bare primary rays", all.bare_primary, benchmarks::name(primary_call));
     row("shadow pass", all.shadow,
         fmt::format("the bare rays + {:.1f} ms", 1e3 * median(all.excess_shadow)));
+    row("  shade", all.shade, "");
+    row("  rays", all.rays, "");
+    row("  trace", all.trace, "");
     row("  bare shadow rays", all.bare_shadow,
         fmt::format("{}, {:.1f} Mrays/s", benchmarks::name(shadow_call),
                     1e-6 * static_cast<double>(work.shadow_rays) / median(all.bare_shadow)));
