@@ -33,6 +33,7 @@ constexpr std::array<SquarePlace, kSquares> squares_in_z_order() {
 constexpr std::array<SquarePlace, kSquares> kSquaresInZOrder = squares_in_z_order();
 
 constexpr unsigned kFullRow = (1u << kSquare) - 1;
+constexpr unsigned kFullSquare = (1u << (kSquare * kSquare)) - 1;
 
 // The active pixels of one row of a square.
 unsigned row_bits(const std::array<std::uint64_t, kTileSize>& rows, SquarePlace place, int row) {
@@ -70,13 +71,34 @@ int append_row(const Copies& arrays, int pixel, unsigned active, int count) {
     return count;
 }
 
+// The active pixels of a square, row by row.
+unsigned square_bits(const std::array<std::uint64_t, kTileSize>& rows, SquarePlace place) {
+    return row_bits(rows, place, 0) | row_bits(rows, place, 1) << kSquare |
+           row_bits(rows, place, 2) << (2 * kSquare) | row_bits(rows, place, 3) << (3 * kSquare);
+}
+
+void append_square(const Copies& arrays, int pixel, int count) {
+    for (int i = 0; i < kArrays; ++i)
+        for (int row = 0; row < kSquare; ++row)
+            _mm_storeu_ps(arrays.to[i] + count + row * kSquare,
+                          _mm_loadu_ps(arrays.from[i] + pixel + row * kTileSize));
+}
+
 int pack(RayScratch& scratch) {
     const Copies arrays = copies(scratch);
     int count = 0;
-    for (const SquarePlace place : kSquaresInZOrder)
-        for (int row = 0; row < kSquare; ++row)
-            count = append_row(arrays, (place.y + row) * kTileSize + place.x,
-                               row_bits(scratch.active, place, row), count);
+    for (const SquarePlace place : kSquaresInZOrder) {
+        const int pixel = place.y * kTileSize + place.x;
+        const unsigned active = square_bits(scratch.active, place);
+        if (active == kFullSquare) {
+            append_square(arrays, pixel, count);
+            count += kSquare * kSquare;
+            continue;
+        }
+        for (int row = 0; row < kSquare && active != 0; ++row)
+            count = append_row(arrays, pixel + row * kTileSize,
+                               (active >> (row * kSquare)) & kFullRow, count);
+    }
     return count;
 }
 

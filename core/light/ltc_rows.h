@@ -33,18 +33,24 @@ Cell<F> find_cell(const F& slow, const F& fast) {
             fast - fast_floor};
 }
 
-// All paths interpolate along the slow axis first, with the same operations on each number.
-inline LtcRow<float> interpolate(const float* table, int slow_stride, const Cell<float>& cell) {
-    const float* near_rows = table + cell.row * kLtcRowFloats;
+// All paths interpolate along the slow axis first, with the same operations on each number. This
+// one: lanes in one cell, as on a surface of one material seen from some way off: nothing to
+// transpose.
+template <class F>
+LtcRow<F> interpolate_within(const float* near_rows, int slow_stride, const Cell<F>& cell) {
     const float* far_rows = near_rows + slow_stride;
-    LtcRow<float> row{};
+    LtcRow<F> row;
     for (int i = 0; i < kLtcRowFloats; ++i) {
         const int next = i + kLtcRowFloats;
-        const float lower = simd::lerp(near_rows[i], far_rows[i], cell.slow_fraction);
-        const float upper = simd::lerp(near_rows[next], far_rows[next], cell.slow_fraction);
+        const F lower = simd::lerp(F(near_rows[i]), F(far_rows[i]), cell.slow_fraction);
+        const F upper = simd::lerp(F(near_rows[next]), F(far_rows[next]), cell.slow_fraction);
         row.column[i] = simd::lerp(lower, upper, cell.fast_fraction);
     }
     return row;
+}
+
+inline LtcRow<float> interpolate(const float* table, int slow_stride, const Cell<float>& cell) {
+    return interpolate_within(table + cell.row * kLtcRowFloats, slow_stride, cell);
 }
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -78,6 +84,8 @@ inline LtcRow<simd::Float<simd::Avx2>> interpolate(const float* table, int slow_
     alignas(32) float slow_fraction[8];
     alignas(32) float fast_fraction[8];
     simd::store(row_index, cell.row);
+    if (simd::all(cell.row == row_index[0]))
+        return interpolate_within(table + row_index[0] * kLtcRowFloats, slow_stride, cell);
     simd::store(slow_fraction, cell.slow_fraction);
     simd::store(fast_fraction, cell.fast_fraction);
     __m256 row[8];
@@ -123,6 +131,8 @@ inline LtcRow<simd::Float<simd::Avx512>> interpolate(const float* table, int slo
     alignas(64) std::int32_t row_index[16];
     alignas(64) float slow_fraction[16];
     simd::store(row_index, cell.row);
+    if (simd::all(cell.row == row_index[0]))
+        return interpolate_within(table + row_index[0] * kLtcRowFloats, slow_stride, cell);
     simd::store(slow_fraction, cell.slow_fraction);
     __m512 row[16];
     for (int lane = 0; lane < 16; ++lane) {
