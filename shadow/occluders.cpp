@@ -1,6 +1,7 @@
 #include "shadow/occluders.h"
 
-// The only file that knows Embree, and which one: 3 has streams of rays, 4 has packets alone.
+// Embree 3 has streams of rays, 4 has packets alone. Beside this file, only build_tree.cpp knows
+// it.
 #if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>
 #else
@@ -14,6 +15,7 @@
 #include "core/error.h"
 #include "core/simd/isa.h"
 #include "shadow/cutout_geometry.h"
+#include "shadow/exact_occluders.h"
 #include "shadow/triangle_extent.h"
 
 namespace penumbra::shadow {
@@ -121,6 +123,53 @@ void set_transform(RTCGeometry geometry, const Affine3f& world_from_object) {
 }
 static_assert(sizeof(Affine3f) == 12 * sizeof(float), "four columns of three floats");
 
+#if RTC_VERSION_MAJOR >= 4
+
+// Without streams: packets of 16, of which the last one is filled up with masked rays.
+void occlude_by(RTCScene scene, const RayStream& rays) {
+    constexpr int kPacket = 16;
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    for (int first = 0; first < rays.count; first += kPacket) {
+        RTCRay16 packet{};
+        alignas(64) int valid[kPacket];
+        for (int i = 0; i < kPacket; ++i) valid[i] = first + i < rays.count ? -1 : 0;
+        std::copy_n(rays.origin[0] + first, kPacket, packet.org_x);
+        std::copy_n(rays.origin[1] + first, kPacket, packet.org_y);
+        std::copy_n(rays.origin[2] + first, kPacket, packet.org_z);
+        std::copy_n(rays.direction[0] + first, kPacket, packet.dir_x);
+        std::copy_n(rays.direction[1] + first, kPacket, packet.dir_y);
+        std::copy_n(rays.direction[2] + first, kPacket, packet.dir_z);
+        std::copy_n(rays.near_limit + first, kPacket, packet.tnear);
+        std::copy_n(rays.far_limit + first, kPacket, packet.tfar);
+        std::fill_n(packet.mask, kPacket, 0xFFFFFFFFu);
+        rtcOccluded16(valid, scene, &packet, &arguments);
+        std::copy_n(packet.tfar, kPacket, rays.far_limit + first);
+    }
+}
+
+#else
+
+// As one stream: fewer calls than packets, and Embree gathers what its own width needs.
+void occlude_by(RTCScene scene, const RayStream& rays) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    RTCRayNp stream{};
+    stream.org_x = rays.origin[0];
+    stream.org_y = rays.origin[1];
+    stream.org_z = rays.origin[2];
+    stream.dir_x = rays.direction[0];
+    stream.dir_y = rays.direction[1];
+    stream.dir_z = rays.direction[2];
+    stream.tnear = rays.near_limit;
+    stream.tfar = rays.far_limit;
+    rtcOccludedNp(scene, &context, &stream, static_cast<unsigned>(rays.count));
+}
+
+#endif
+
 }  // namespace
 
 TraceIsa parse_trace_isa(std::string_view name) {
@@ -137,9 +186,12 @@ TraceIsa parse_trace_isa(std::string_view name) {
 // object space, built once, and is instanced beside it: never refitted, since a refitted tree would
 // depend on its history.
 struct Occluders::Implementation {
-    Implementation(const parallel::Arena& arena_to_use, TraceIsa isa)
-        : arena(arena_to_use), device(rtcNewDevice(device_configuration(isa).c_str())) {
+    Implementation(const parallel::Arena& arena_to_use, const OccluderSettings& settings)
+        : arena(arena_to_use), device(rtcNewDevice(device_configuration(settings.isa).c_str())) {
         if (!device) check(nullptr, "starting the ray tracer");
+        if (settings.test == HitTest::kExact)
+            exact = std::make_unique<ExactOccluders>(
+                arena, settings.kernels ? *settings.kernels : simd::best_isa());
     }
 
     [[nodiscard]] Scene new_scene() const {
@@ -211,6 +263,17 @@ struct Occluders::Implementation {
 
     void build_all(const SceneView& view) {
         clear();
+        if (exact)
+            exact->rebuild(view);
+        else
+            build_scenes(view);
+        extents.resize(view.instances.size());
+        for (std::size_t i = 0; i < view.instances.size(); ++i)
+            extents[i] = triangle_extents(arena, view.instances[i]);
+        check(device.get(), "building the shadow rays' tree");
+    }
+
+    void build_scenes(const SceneView& view) {
         build_fixed(view);
         const bool any_moves = std::any_of(view.instances.begin(), view.instances.end(),
                                            [](const Instance& i) { return i.is_animated; });
@@ -222,13 +285,10 @@ struct Occluders::Implementation {
         for (std::size_t i = 0; i < view.instances.size(); ++i)
             if (view.instances[i].is_animated)
                 placements[i].geometry = attach_copy(moving_scene(view, view.instances[i]));
-        extents.resize(view.instances.size());
-        for (std::size_t i = 0; i < view.instances.size(); ++i)
-            extents[i] = triangle_extents(arena, view.instances[i]);
-        check(device.get(), "building the shadow rays' tree");
     }
 
     void place_moving(const SceneView& view) {
+        if (exact) return exact->place_moving(view);
         bool changed = false;
         for (std::size_t i = 0; i < placements.size(); ++i) {
             Placement& placement = placements[i];
@@ -267,26 +327,30 @@ struct Occluders::Implementation {
     const parallel::Arena& arena;
     Device device;
     std::vector<Source> sources;
+    bool is_built = false;  // from `sources`
     std::vector<std::unique_ptr<CutoutSplit>> splits;
     Scene fixed;
     std::vector<Moving> moving;
     Scene top;  // null if nothing moves: then `fixed` is all
     std::vector<Placement> placements;
+    std::unique_ptr<ExactOccluders> exact;  // if set, it stands for all scenes
     std::vector<TriangleExtents> extents;
     std::vector<float> scales;
 };
 
-Occluders::Occluders(const parallel::Arena& arena, TraceIsa isa)
-    : implementation_(std::make_unique<Implementation>(arena, isa)) {}
+Occluders::Occluders(const parallel::Arena& arena, const OccluderSettings& settings)
+    : implementation_(std::make_unique<Implementation>(arena, settings)) {}
 Occluders::~Occluders() = default;
 
 void Occluders::update(const SceneView& view) {
     Implementation& self = *implementation_;
     std::vector<Source> sources = sources_of(view);
-    if (!self.fixed || sources != self.sources) {
+    if (!self.is_built || sources != self.sources) {
+        self.is_built = false;
         self.sources.clear();  // after a failure, the next update begins anew
         self.build_all(view);
         self.sources = std::move(sources);
+        self.is_built = true;
     }
     self.place_moving(view);
     self.scales.resize(view.instances.size());
@@ -298,53 +362,12 @@ std::span<const float> Occluders::offset_scales() const {
     return implementation_->scales;
 }
 
-#if RTC_VERSION_MAJOR >= 4
-
-// Without streams: packets of 16, of which the last one is filled up with masked rays.
-void Occluders::occlude(const RayStream& rays) const {
-    constexpr int kPacket = 16;
-    const Implementation& self = *implementation_;
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
-    for (int first = 0; first < rays.count; first += kPacket) {
-        RTCRay16 packet{};
-        alignas(64) int valid[kPacket];
-        for (int i = 0; i < kPacket; ++i) valid[i] = first + i < rays.count ? -1 : 0;
-        std::copy_n(rays.origin[0] + first, kPacket, packet.org_x);
-        std::copy_n(rays.origin[1] + first, kPacket, packet.org_y);
-        std::copy_n(rays.origin[2] + first, kPacket, packet.org_z);
-        std::copy_n(rays.direction[0] + first, kPacket, packet.dir_x);
-        std::copy_n(rays.direction[1] + first, kPacket, packet.dir_y);
-        std::copy_n(rays.direction[2] + first, kPacket, packet.dir_z);
-        std::copy_n(rays.near_limit + first, kPacket, packet.tnear);
-        std::copy_n(rays.far_limit + first, kPacket, packet.tfar);
-        std::fill_n(packet.mask, kPacket, 0xFFFFFFFFu);
-        rtcOccluded16(valid, self.scene(), &packet, &arguments);
-        std::copy_n(packet.tfar, kPacket, rays.far_limit + first);
-    }
-}
-
-#else
-
-// As one stream: fewer calls than packets, and Embree gathers what its own width needs.
 void Occluders::occlude(const RayStream& rays) const {
     const Implementation& self = *implementation_;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRayNp stream{};
-    stream.org_x = rays.origin[0];
-    stream.org_y = rays.origin[1];
-    stream.org_z = rays.origin[2];
-    stream.dir_x = rays.direction[0];
-    stream.dir_y = rays.direction[1];
-    stream.dir_z = rays.direction[2];
-    stream.tnear = rays.near_limit;
-    stream.tfar = rays.far_limit;
-    rtcOccludedNp(self.scene(), &context, &stream, static_cast<unsigned>(rays.count));
+    if (self.exact)
+        self.exact->occlude(rays);
+    else
+        occlude_by(self.scene(), rays);
 }
-
-#endif
 
 }  // namespace penumbra::shadow

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/simd/isa.h"
+#include "shadow/ray_stream.h"
 
-// The geometry that blocks light. The one door to Embree: nothing else names it.
+// The geometry that blocks light. The door to Embree.
 
 namespace penumbra::shadow {
 
@@ -18,20 +21,24 @@ enum class TraceIsa { kAvx2, kAvx512, kAuto };
 // "avx2", "avx512" or "auto"; throws InputError for other names and for what the processor lacks.
 [[nodiscard]] TraceIsa parse_trace_isa(std::string_view name);
 
-// A batch of rays as structure of arrays, aligned to 64 bytes, with room for a multiple of 16. A
-// ray is origin + t * direction, near < t < far.
-struct RayStream {
-    float* origin[3];
-    float* direction[3];
-    float* near_limit;
-    float* far_limit;  // becomes -infinity where the ray is blocked
-    int count = 0;
+// Who decides whether a ray meets a triangle.
+enum class HitTest {
+    kEmbree,  // fastest; the last bits depend on its instruction set and the processor's maker
+    kExact,   // segment_triangle.h: the same answer on all processors
+};
+
+struct OccluderSettings {
+    TraceIsa isa = TraceIsa::kAvx2;  // of kEmbree
+    HitTest test = HitTest::kEmbree;
+    std::optional<simd::Isa> kernels;  // of kExact; changes no answer
 };
 
 class Occluders {
   public:
     // Uses the arena's threads, and no others, to build. `arena` must outlive it.
-    Occluders(const parallel::Arena& arena, TraceIsa isa);
+    Occluders(const parallel::Arena& arena, const OccluderSettings& settings);
+    Occluders(const parallel::Arena& arena, TraceIsa isa)
+        : Occluders(arena, OccluderSettings{.isa = isa}) {}
     ~Occluders();
     Occluders(const Occluders&) = delete;
     Occluders& operator=(const Occluders&) = delete;
@@ -42,7 +49,7 @@ class Occluders {
     // memory is short.
     void update(const SceneView& view);
 
-    // Marks blocked rays. Any number of threads may call it at once.
+    // Marks blocked rays. Any number of threads may call it at once. 0 <= near < far <= 2^20.
     void occlude(const RayStream& rays) const;
 
     // Per instance: the size of the numbers, metres, whose rounding errors a ray's origin must be

@@ -220,6 +220,9 @@ void declare_execution(CLI::App& command, RenderOptions& o) {
               "Instruction set of everything but the ray tracer; changes no pixel");
     add_words(command, "--trace-isa", o.trace_isa, kTraceIsas,
               "Instruction set of the ray tracer; another one may change one ray in a million");
+    command.add_flag("--reproducible", o.image.reproducible,
+                     "Settle shadow rays exactly, in our own arithmetic: equal bits on all "
+                     "processors with AVX2; slower (docs/reproducibility.md)");
 }
 
 }  // namespace

@@ -65,7 +65,10 @@ struct Renderer::State {
           image(completed(s, i)),
           execution(e),
           arena(e.threads > 0 ? e.threads : parallel::default_thread_count()),
-          occluders(arena, e.trace_isa),
+          occluders(arena, {.isa = e.trace_isa,
+                            .test = i.reproducible ? shadow::HitTest::kExact
+                                                   : shadow::HitTest::kEmbree,
+                            .kernels = e.isa}),
           scratch(static_cast<std::size_t>(arena.threads())),
           counts(static_cast<std::size_t>(arena.threads())) {
         if (!execution.isa) execution.isa = simd::best_isa();

@@ -36,6 +36,7 @@ struct ImageSettings {
     std::uint32_t seed = 0;
     float light_tolerance =
         1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
+    bool reproducible = false;  // shadow rays are settled exactly: equal bits on all processors
 };
 
 // Called with the rays of a tile, one light and one sample, before they are traced: from any worker

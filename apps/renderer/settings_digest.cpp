@@ -26,7 +26,8 @@ std::string_view name(Denoise denoise) {
     return denoise == Denoise::kNoiseDriven ? "noise-driven" : "none";
 }
 
-std::string_view name(shadow::TraceIsa isa) {
+std::string_view name_of_tracer(const ImageSettings& image, shadow::TraceIsa isa) {
+    if (image.reproducible) return "exact";  // then no pixel depends on Embree
     switch (isa) {
         case shadow::TraceIsa::kAvx2:
             return "avx2";
@@ -61,8 +62,8 @@ std::string describe_settings(const ImageSettings& image, const ExecutionSetting
         "light-tolerance {}, trace-isa {}, precision {}, compression {}, aov",
         name(image.method), image.width, image.height, crop.x0, crop.y0, crop.x1, crop.y1,
         image.samples_per_pixel, image.passes, name(image.denoise), image.seed,
-        image.light_tolerance, name(execution.trace_isa), output.float_precision ? "float" : "half",
-        image::name(output.compression));
+        image.light_tolerance, name_of_tracer(image, execution.trace_isa),
+        output.float_precision ? "float" : "half", image::name(output.compression));
     if (image.denoise == Denoise::kNoiseDriven) text = describe_filter(image) + text;
     if (output.preview) text = fmt::format("preview at {} EV, ", output.exposure) + text;
     for (const AovInfo& aov : aov_table())
