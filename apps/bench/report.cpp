@@ -51,6 +51,8 @@ std::string name(LimitKind kind) {
             return "stream";
         case LimitKind::kArithmetic:
             return "arithmetic";
+        case LimitKind::kSum:
+            return "sum";
     }
     return "";
 }

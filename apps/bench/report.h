@@ -20,6 +20,7 @@ enum class LimitKind {
     kShadowRays,   // bare Embree on exactly the frame's shadow rays
     kStream,       // a triad a = b + s c over as many bytes as the pass must move at least
     kArithmetic,   // fused multiply-adds, as many as the pass must execute at least
+    kSum,          // of the whole frame: its passes' limits, one after the other
 };
 [[nodiscard]] std::string name(LimitKind kind);  // "primary rays", ...
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 
+#include "apps/cli/bench_command.h"
 #include "apps/cli/check_command.h"
 #include "apps/cli/completion_command.h"
 #include "apps/cli/diff_command.h"
@@ -28,7 +29,7 @@ constexpr const char* kFooter =
     "  130 143 129  interrupted by Ctrl-C, SIGTERM or SIGHUP; what is on disk is whole";
 
 int report(const std::string& message, int exit_code) {
-    penumbra::cli::say(stderr, "error: {}\n", message);
+    penumbra::cli::say_error(message);
     return exit_code;
 }
 
@@ -44,6 +45,7 @@ int run(int argc, char** argv) {
     const auto render = penumbra::cli::add_render_command(app, exit_code);
     const auto info = penumbra::cli::add_info_command(app, exit_code);
     const auto diff = penumbra::cli::add_diff_command(app, exit_code);
+    const auto bench = penumbra::cli::add_bench_command(app, exit_code);
     const auto check = penumbra::cli::add_check_command(app, argv[0], exit_code);
     penumbra::cli::add_completion_command(app);
     penumbra::cli::add_manual_command(app);

@@ -1,0 +1,133 @@
+#include "apps/bench/limits.h"
+
+#include <limits>
+
+#include "core/profile/stopwatch.h"
+#include "core/profile/timeline.h"
+
+namespace penumbra::bench {
+namespace {
+
+// Runs `body` as a phase of that name; the arena records its loops' tasks.
+template <class Body>
+LoopTime timed(profile::Profile& profile, const char* name, const Body& body) {
+    const profile::Nanoseconds before = total(profile, profile::Kind::kTask, name);
+    const profile::Phase phase(&profile, name);
+    const profile::Stopwatch watch;
+    body();
+    const double seconds = watch.seconds();
+    const profile::Nanoseconds tasks = total(profile, profile::Kind::kTask, name) - before;
+    return {.wall_milliseconds = 1e3 * seconds,
+            .thread_milliseconds = 1e-6 * static_cast<double>(tasks)};
+}
+
+LoopTime scaled(LoopTime time, double factor) {
+    return {.wall_milliseconds = factor * time.wall_milliseconds,
+            .thread_milliseconds = factor * time.thread_milliseconds};
+}
+
+// The one of `candidates` that is quickest in the middle one of three trials.
+template <class Candidate, class Time>
+Candidate quickest(const std::vector<Candidate>& candidates, const Time& time) {
+    Candidate best = candidates.front();
+    double best_milliseconds = std::numeric_limits<double>::infinity();
+    for (const Candidate candidate : candidates) {
+        std::vector<double> trials;
+        for (int trial = 0; trial < 3; ++trial) trials.push_back(time(candidate).wall_milliseconds);
+        const double milliseconds = summarize(trials).median;
+        if (milliseconds >= best_milliseconds) continue;
+        best_milliseconds = milliseconds;
+        best = candidate;
+    }
+    return best;
+}
+
+}  // namespace
+
+Demands demands(const Workload& work) {
+    constexpr std::uint64_t kFloat = 4;
+    // Positions and indices in, a reference per triangle and bin out.
+    constexpr std::uint64_t kPosition = 3 * kFloat, kIndices = 3 * kFloat, kReference = 4;
+    // Planes: U, S, U_N and emission of three channels each, coverage, depth, a normal.
+    constexpr std::uint64_t kDeposited = 17;
+    // S, U_N and U in, E out.
+    constexpr std::uint64_t kNoise = 10;
+    // Across: E, depth, normal, S and U_N in, S and U_N out. Down: the same in, with U and
+    // emission, the picture out.
+    constexpr std::uint64_t kFiltered = (5 + 6 + 6) + (5 + 6 + 6 + 3);
+    // Two lobes. A vertex: a transform (9), and its edge's dot and cross product, length and
+    // theta / sin theta (20). A pixel: two rows of 8 numbers of the table, interpolated in two
+    // directions (32).
+    constexpr std::uint64_t kPerVertex = 2 * (9 + 20), kPerPair = 32;
+    // A ray: its place on a spherical triangle (60), the BRDF with its densities (40).
+    constexpr std::uint64_t kPerRay = 100;
+    return {.setup_bytes = kPosition * work.vertices + (kIndices + kReference) * work.triangles,
+            .deposit_bytes = kDeposited * kFloat * work.pixels,
+            .noise_bytes = kNoise * kFloat * work.pixels,
+            .filter_bytes = kFiltered * kFloat * work.pixels,
+            .shade_multiply_adds = kPerVertex * work.shaded_vertices + kPerPair * work.shaded_pairs,
+            .rays_multiply_adds = kPerRay * work.shadow_rays};
+}
+
+Limits::Limits(const Workload& workload, const shadow::BareRays& bare, simd::Isa isa,
+               const parallel::Arena& arena, profile::Profile& profile)
+    : work_(workload),
+      bare_(bare),
+      isa_(isa),
+      arena_(arena),
+      profile_(profile),
+      demands_(demands(workload)),
+      scratch_(static_cast<std::size_t>(arena.threads())),
+      setup_(demands_.setup_bytes),
+      deposit_(demands_.deposit_bytes),
+      noise_(demands_.noise_bytes),
+      filter_(demands_.filter_bytes) {
+    using Stores = StreamStores;
+    primary_call_ = quickest(shadow::intersect_calls(), [&](auto c) { return primary(c); });
+    shadow_call_ = quickest(shadow::occlude_calls(), [&](auto c) { return shadow(c); });
+    stores_ = quickest(std::vector<Stores>{Stores::kThroughCaches, Stores::kAroundCaches},
+                       [&](Stores s) { return stream(filter_, s, "stream"); });
+}
+
+LoopTime Limits::primary(shadow::RayCall call) {
+    return timed(profile_, "limit: primary rays", [&] {
+        arena_.for_each(static_cast<int>(work_.primary.size()), [&](int index, int) {
+            bare_.intersect(work_.primary[static_cast<std::size_t>(index)], call);
+        });
+    });
+}
+
+LoopTime Limits::shadow(shadow::RayCall call) {
+    const LoopTime kept = timed(profile_, "limit: shadow rays", [&] {
+        arena_.for_each(static_cast<int>(work_.shadow.size()), [&](int index, int worker) {
+            bare_.occlude(work_.shadow[static_cast<std::size_t>(index)], call,
+                          scratch_[static_cast<std::size_t>(worker)]);
+        });
+    });
+    return scaled(kept, work_.shadow_scale);
+}
+
+LoopTime Limits::stream(Triad& triad, StreamStores stores, const char* name) {
+    return timed(profile_, name, [&] { triad.run(arena_, stores); });
+}
+
+LoopTime Limits::arithmetic(std::uint64_t count, const char* name) {
+    return timed(profile_, name, [&] { multiply_adds(count, isa_, arena_); });
+}
+
+Limits::Measured Limits::measure() {
+    return {.primary_rays = primary(primary_call_),
+            .shadow_rays = shadow(shadow_call_),
+            .shade = arithmetic(demands_.shade_multiply_adds, "limit: arithmetic of shade"),
+            .rays = arithmetic(demands_.rays_multiply_adds, "limit: arithmetic of rays"),
+            .setup = stream(setup_, stores_, "limit: stream of setup"),
+            .deposit = stream(deposit_, stores_, "limit: stream of deposit"),
+            .noise = stream(noise_, stores_, "limit: stream of noise"),
+            .filter = stream(filter_, stores_, "limit: stream of filter")};
+}
+
+std::string Limits::stream_call() const {
+    return stores_ == StreamStores::kAroundCaches ? "around the caches" : "through the caches";
+}
+
+}  // namespace penumbra::bench

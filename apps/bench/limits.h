@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/bench/peaks.h"
+#include "apps/bench/report.h"
+#include "apps/bench/workload.h"
+#include "core/profile/profile.h"
+
+// The machine's limits for one frame and one number of threads, each measured by a loop of its own.
+
+namespace penumbra::bench {
+
+// How long a loop takes: on the wall clock, and its tasks of all threads together.
+struct LoopTime {
+    double wall_milliseconds = 0;
+    double thread_milliseconds = 0;
+};
+
+// What the passes must move and compute at least; docs/bench.md explains the counts.
+struct Demands {
+    std::uint64_t setup_bytes = 0, deposit_bytes = 0, noise_bytes = 0, filter_bytes = 0;
+    std::uint64_t shade_multiply_adds = 0, rays_multiply_adds = 0;
+};
+[[nodiscard]] Demands demands(const Workload& work);
+
+class Limits {
+  public:
+    struct Measured {
+        LoopTime primary_rays, shadow_rays, shade, rays, setup, deposit, noise, filter;
+    };
+
+    // `workload`, `bare`, `arena` and `profile`, which the arena records to, must outlive it. Finds
+    // the quickest call for each by trying all.
+    Limits(const Workload& workload, const shadow::BareRays& bare, simd::Isa isa,
+           const parallel::Arena& arena, profile::Profile& profile);
+
+    // All of them once.
+    [[nodiscard]] Measured measure();
+
+    // "stream", "8-packets", "around the caches", "avx512".
+    [[nodiscard]] std::string primary_call() const { return name(primary_call_); }
+    [[nodiscard]] std::string shadow_call() const { return name(shadow_call_); }
+    [[nodiscard]] std::string stream_call() const;
+    [[nodiscard]] std::string arithmetic_call() const { return std::string(simd::name(isa_)); }
+
+  private:
+    LoopTime primary(shadow::RayCall call);
+    LoopTime shadow(shadow::RayCall call);
+    LoopTime stream(Triad& triad, StreamStores stores, const char* name);
+    LoopTime arithmetic(std::uint64_t count, const char* name);
+
+    const Workload& work_;
+    const shadow::BareRays& bare_;
+    simd::Isa isa_;
+    const parallel::Arena& arena_;
+    profile::Profile& profile_;
+    Demands demands_;
+    std::vector<shadow::RayCallScratch> scratch_;  // one per worker
+    Triad setup_, deposit_, noise_, filter_;
+    shadow::RayCall primary_call_ = shadow::RayCall::kSingle;
+    shadow::RayCall shadow_call_ = shadow::RayCall::kSingle;
+    StreamStores stores_ = StreamStores::kThroughCaches;
+};
+
+}  // namespace penumbra::bench

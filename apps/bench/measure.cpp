@@ -1,0 +1,201 @@
+#include "apps/bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "apps/bench/hardware_counters.h"
+#include "apps/bench/limits.h"
+#include "apps/bench/machine.h"
+#include "apps/bench/passes.h"
+#include "apps/renderer/builtin_scene.h"
+#include "apps/renderer/renderer.h"
+#include "core/profile/timeline.h"
+#include "core/scene/read_scene.h"
+
+namespace penumbra::bench {
+namespace {
+
+// The file's name without its ending, with a number where it was there before.
+std::string unique_name(const std::string& path, const std::vector<SceneResult>& others) {
+    const std::string stem =
+        path.empty() ? "built-in" : std::filesystem::path(path).stem().string();
+    std::string name = stem;
+    const auto is_taken = [&] {
+        return std::any_of(others.begin(), others.end(),
+                           [&](const SceneResult& other) { return other.name == name; });
+    };
+    for (int number = 2; is_taken(); ++number) name = fmt::format("{}-{}", stem, number);
+    return name;
+}
+
+// Appends a run's slices to the recording, at its end, within one slice of the run's name.
+void append(const profile::Profile& run, const std::string& name, Recording& recording) {
+    const std::vector<profile::Timeline> slices = timelines(run);
+    if (slices.empty()) return;
+    recording.names.push_back(name);
+    const std::vector<profile::Timeline> before = timelines(recording.profile);
+    const profile::Nanoseconds begin = before.empty() ? 0 : before.front().end;
+    const profile::Nanoseconds shift = begin - slices.front().begin;
+    recording.profile.make_tracks(run.threads());
+    for (int worker = 0; worker < run.threads(); ++worker)
+        for (profile::Slice slice : run.track(worker).slices()) {
+            slice.begin += shift;
+            slice.end += shift;
+            recording.profile.track(worker).add(slice);
+        }
+    recording.profile.track(0).add({.name = recording.names.back().c_str(),
+                                    .begin = begin,
+                                    .end = slices.front().end + shift,
+                                    .first = {"threads", run.threads()}});
+}
+
+// One scene, run after run.
+class SceneBench {
+  public:
+    SceneBench(const BenchSettings& settings, const std::string& path, const CounterSet& counters,
+               const Listener& listener, const std::atomic<bool>& cancelled)
+        : settings_(settings),
+          counters_(counters),
+          listener_(listener),
+          cancelled_(cancelled),
+          scene_(path.empty() ? renderer::read_builtin_scene() : read_scene(path)),
+          frame_(settings.frame > 0 ? settings.frame : scene_.animation.first_frame) {
+        result_.path = path;
+        renderer::check_settings(scene_, settings.image, settings.execution);
+    }
+
+    void run(const std::string& name, Recording* recording) {
+        result_.name = name;
+        for (const int threads : settings_.threads) {
+            if (cancelled_) return;
+            run_threads(threads, recording);
+        }
+    }
+
+    [[nodiscard]] SceneResult take() { return std::move(result_); }
+
+  private:
+    void run_threads(int threads, Recording* recording) {
+        profile::Profile profile;
+        renderer::ExecutionSettings execution = settings_.execution;
+        execution.threads = threads;
+        execution.profile = &profile;
+        renderer::Renderer renderer(scene_, settings_.image, execution);
+        tell(threads, "warming up");
+        for (int i = 0; i < settings_.warmups && !cancelled_; ++i) render(renderer);
+        // The frames' memory, before that of the limits is added to it.
+        if (result_.runs.empty()) result_.peak_memory_bytes = peak_memory_bytes();
+
+        parallel::Arena arena(threads);
+        prepare_limits(arena);
+        arena.record(&profile);
+        const simd::Isa isa = execution.isa.value_or(simd::best_isa());
+        tell(threads, "looking for the quickest calls");
+        Limits limits(*workload_, *bare_, isa, arena, profile);
+        ThreadRun run = empty_run(threads, *workload_, limits);
+        for (int i = 0; i < settings_.repetitions; ++i) {
+            if (cancelled_) return;
+            tell(threads, fmt::format("{} of {}", i + 1, settings_.repetitions));
+            profile.clear();
+            repeat(i, renderer, limits, profile, run);
+        }
+        if (run.counters) divide(settings_.repetitions, *run.counters);
+        if (recording)
+            append(profile, fmt::format("{}, {} threads", result_.name, threads), *recording);
+        result_.runs.push_back(std::move(run));
+    }
+
+    // The frame and its limits in turns, so that whatever slows the machine down meets both.
+    void repeat(int index, renderer::Renderer& renderer, Limits& limits,
+                const profile::Profile& profile, ThreadRun& run) {
+        Limits::Measured measured;
+        if (index % 2 == 1) measured = limits.measure();
+        const std::optional<HardwareCounters> before = counters_.read();
+        const renderer::FrameStatistics statistics = render(renderer);
+        const std::optional<HardwareCounters> after = counters_.read();
+        if (index % 2 == 0) measured = limits.measure();
+        add_samples(statistics, profile, measured, run);
+        if (before && after) add(*before, *after, run.counters);
+    }
+
+    static void add(const HardwareCounters& before, const HardwareCounters& after,
+                    std::optional<HardwareCounters>& sum) {
+        if (!sum) sum.emplace();
+        sum->cycles += after.cycles - before.cycles;
+        sum->instructions += after.instructions - before.instructions;
+        sum->cache_misses += after.cache_misses - before.cache_misses;
+    }
+
+    static void divide(int repetitions, HardwareCounters& sum) {
+        const auto count = static_cast<std::uint64_t>(repetitions);
+        sum.cycles /= count;
+        sum.instructions /= count;
+        sum.cache_misses /= count;
+    }
+
+    renderer::FrameStatistics render(renderer::Renderer& renderer) {
+        return renderer.render(frame_, {renderer::Aov::kBeauty}, film_, &cancelled_);
+    }
+
+    void prepare_limits(const parallel::Arena& arena) {
+        if (workload_) return;
+        workload_ = std::make_unique<Workload>(
+            record_workload(scene_, settings_.image, settings_.execution, frame_));
+        bare_ = std::make_unique<shadow::BareRays>(workload_->view, settings_.execution.trace_isa,
+                                                   arena);
+        const renderer::ImageSettings image = renderer::completed(scene_, settings_.image);
+        result_.frame = frame_;
+        result_.width = image.width;
+        result_.height = image.height;
+        result_.samples_per_pixel = image.samples_per_pixel;
+        result_.triangles = workload_->triangles;
+        result_.lights = workload_->view.lights.size();
+        result_.shadow_rays = workload_->shadow_rays;
+        result_.covered_pixels = workload_->covered_pixels;
+    }
+
+    void tell(int threads, const std::string& what) const {
+        if (listener_)
+            listener_(fmt::format("{}, {} thread{}: {}", result_.name, threads,
+                                  threads == 1 ? "" : "s", what));
+    }
+
+    const BenchSettings& settings_;
+    const CounterSet& counters_;
+    const Listener& listener_;
+    const std::atomic<bool>& cancelled_;
+    Scene scene_;
+    int frame_;
+    renderer::Film film_;
+    std::unique_ptr<Workload> workload_;
+    std::unique_ptr<shadow::BareRays> bare_;
+    SceneResult result_;
+};
+
+}  // namespace
+
+Report measure(const BenchSettings& settings, const Listener& listener,
+               const std::atomic<bool>& cancelled, Recording* recording) {
+    Report report{
+        .machine = describe_machine(settings.execution.isa.value_or(simd::best_isa()),
+                                    settings.execution.trace_isa),
+        .warmups = settings.warmups,
+        .repetitions = settings.repetitions,
+    };
+    // Before any thread of ours runs: those that come later inherit the counters.
+    const CounterSet counters;
+    report.machine.counters = counters.state();
+    for (const std::string& path : settings.scenes) {
+        if (cancelled) break;
+        reset_peak_memory();
+        SceneBench bench(settings, path, counters, listener, cancelled);
+        bench.run(unique_name(path, report.scenes), recording);
+        report.scenes.push_back(bench.take());
+    }
+    return report;
+}
+
+}  // namespace penumbra::bench

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/renderer/renderer.h"
+#include "core/frame/scene_view.h"
+#include "shadow/bare_rays.h"
+
+// What a frame works on, kept so that the machine's limits can be measured on the same.
+
+namespace penumbra::bench {
+
+struct Workload {
+    SceneView view;
+    std::vector<shadow::RayBatch> primary;  // per tile: one ray through each pixel's centre
+    std::vector<shadow::RayBatch> shadow;   // per tile: exactly the frame's shadow rays
+    // How many times as many there are as are kept: 1, or more where they would fill the memory;
+    // then every so many-th tile is.
+    double shadow_scale = 1;
+    std::uint64_t pixels = 0, covered_pixels = 0;
+    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t shaded_pairs = 0;     // of a pixel and a light that it may see, at least
+    std::uint64_t shaded_vertices = 0;  // of those lights
+};
+
+// Renders the frame once and keeps its rays. `memory` is what they may take, in bytes.
+[[nodiscard]] Workload record_workload(const Scene& scene, const renderer::ImageSettings& image,
+                                       const renderer::ExecutionSettings& execution, int frame,
+                                       std::uint64_t memory = std::uint64_t{2} << 30);
+
+}  // namespace penumbra::bench

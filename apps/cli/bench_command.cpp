@@ -1,0 +1,85 @@
+#include "apps/cli/bench_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "apps/bench/csv.h"
+#include "apps/bench/table.h"
+#include "apps/cli/bench_json.h"
+#include "apps/cli/bench_options.h"
+#include "apps/cli/option_checks.h"
+#include "apps/cli/say.h"
+#include "apps/cli/signals.h"
+#include "core/image/publish.h"
+#include "core/profile/trace.h"
+
+namespace penumbra::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "The columns are explained in docs/bench.md.\n\n"
+    "Examples:\n"
+    "  penumbra bench\n"
+    "  penumbra bench shot.json room.json --threads 1,8,64 --json bench.json\n"
+    "  penumbra bench shot.json --size 1280x720 --trace trace.json";
+
+void require_files_of_their_own(const BenchOptions& options) {
+    std::vector<PlannedFile> outputs;
+    if (!options.json.empty()) outputs.emplace_back("--json", options.json);
+    if (!options.csv.empty()) outputs.emplace_back("--csv", options.csv);
+    if (!options.trace.empty()) outputs.emplace_back("--trace", options.trace);
+    require_distinct(outputs, {options.scenes.begin(), options.scenes.end()});
+}
+
+// What goes on, on one line of a terminal; nothing elsewhere.
+bench::Listener status_line() {
+    if (isatty(STDERR_FILENO) == 0) return {};
+    return [](const std::string& line) {
+        say(stderr, "\r\x1b[K{}", line);
+        static_cast<void>(std::fflush(stderr));
+    };
+}
+
+void write_files(const BenchOptions& options, const bench::Report& report,
+                 const bench::Recording& recording) {
+    if (!options.json.empty())
+        image::write_file_atomically(options.json, benchmark_json(report) + "\n");
+    if (!options.csv.empty()) image::write_file_atomically(options.csv, bench::csv(report));
+    if (!options.trace.empty())
+        image::write_file_atomically(options.trace,
+                                     profile::chrome_trace(recording.profile, "penumbra bench"));
+}
+
+int run_bench(const BenchOptions& options) {
+    const bench::BenchSettings settings = interpret(options);
+    require_files_of_their_own(options);
+    const std::atomic<bool>& cancelled = catch_interrupts();
+    const bench::Listener listener = status_line();
+    bench::Recording recording;
+    const bench::Report report =
+        bench::measure(settings, listener, cancelled, options.trace.empty() ? nullptr : &recording);
+    if (listener) say(stderr, "\r\x1b[K");
+    if (cancelled) return interrupt_exit_code();
+    say(stdout, "{}", bench::table(report));
+    write_files(options, report, recording);
+    return 0;
+}
+
+}  // namespace
+
+std::shared_ptr<BenchOptions> add_bench_command(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<BenchOptions>();
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure the passes of frames against the machine's limits");
+    declare_options(*command, *options);
+    command->footer(kFooter);
+    command->callback([options, command, &exit_code] {
+        refuse_empty_values(*command);
+        exit_code = run_bench(*options);
+    });
+    return options;
+}
+
+}  // namespace penumbra::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "apps/bench/report.h"
+
+namespace penumbra::cli {
+
+// The report in Google Benchmark's JSON format, so that its compare.py reads it: one entry per
+// repetition and pass, then their mean, median, standard deviation and coefficient of variation.
+// Further keys hold what that format has no place for; docs/bench.md lists them.
+[[nodiscard]] std::string benchmark_json(const bench::Report& report);
+
+}  // namespace penumbra::cli

@@ -1,0 +1,124 @@
+#include "apps/cli/bench_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/bench/machine.h"
+#include "apps/cli/option_checks.h"
+#include "core/error.h"
+#include "core/parallel/arena.h"
+
+namespace penumbra::cli {
+namespace {
+
+constexpr int kLargestSide = 16384;  // as for `penumbra render`
+constexpr int kMostThreads = 1024;
+
+void declare_what(CLI::App& command, BenchOptions& o) {
+    command
+        .add_option("SCENES", o.scenes,
+                    "Scene files (.json) or models (.obj); without any the built-in scene")
+        ->type_name("FILE.json|obj");
+    command.option_defaults()->group("What is measured");
+    command.add_option("--frame", o.frame, "Which frame of each scene [its first one]")
+        ->check(in_range(1, 1e9));
+    command.add_option("--size", o.size, "Size of the picture in pixels [the scene's]")
+        ->type_name("WIDTHxHEIGHT");
+    command
+        .add_option("--spp", o.samples_per_pixel,
+                    "Shadow rays per light and pixel [the scene's, else 1]")
+        ->check(in_range(1, 64));
+}
+
+void declare_how(CLI::App& command, BenchOptions& o) {
+    command.option_defaults()->group("How often, and on how many threads");
+    command
+        .add_option("--threads", o.threads,
+                    "Numbers of threads to sweep over, a list with commas [powers of two up to "
+                    "what affinity, cgroup quota and Slurm allow, and that]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(in_range(1, kMostThreads));
+    command.add_option("--warmup", o.warmups, "Frames before the first measured one")
+        ->check(in_range(0, 1000))
+        ->capture_default_str();
+    command.add_option("--repetitions", o.repetitions, "Measured frames per number of threads")
+        ->check(in_range(1, 100000))
+        ->capture_default_str();
+}
+
+void declare_output(CLI::App& command, BenchOptions& o) {
+    command.option_defaults()->group("Reports, beside the table");
+    command.add_option("--json", o.json, "Write every repetition, in Google Benchmark's format")
+        ->type_name("FILE.json");
+    command.add_option("--csv", o.csv, "Write medians and quartiles")->type_name("FILE.csv");
+    command
+        .add_option("--trace", o.trace,
+                    "Write what each thread did in the last repetitions, for ui.perfetto.dev or "
+                    "chrome://tracing")
+        ->type_name("FILE.json");
+}
+
+void declare_execution(CLI::App& command, BenchOptions& o) {
+    command.option_defaults()->group("Running");
+    command.add_option("--isa", o.isa, "Instruction set of everything but the ray tracer")
+        ->check(CLI::IsMember({"auto", "avx2", "avx512"}))
+        ->capture_default_str();
+    command
+        .add_option("--trace-isa", o.trace_isa,
+                    "Instruction set of the ray tracer, in the frames and in their limits")
+        ->check(CLI::IsMember({"avx2", "avx512", "auto"}))
+        ->capture_default_str();
+}
+
+void read_size(const std::string& text, renderer::ImageSettings& image) {
+    int width = 0;
+    int height = 0;
+    int end = 0;
+    const int found = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end);
+    const auto is_side = [](int side) { return side >= 1 && side <= kLargestSide; };
+    if (found != 2 || end != static_cast<int>(text.size()) || !is_side(width) || !is_side(height))
+        throw InputError(fmt::format("--size: expected WIDTHxHEIGHT, each 1 to {}, got \"{}\"",
+                                     kLargestSide, text));
+    image.width = width;
+    image.height = height;
+}
+
+std::optional<simd::Isa> kernel_isa(const std::string& word) {
+    if (word == "avx2") return simd::Isa::kAvx2;
+    if (word == "avx512") return simd::Isa::kAvx512;
+    return std::nullopt;
+}
+
+}  // namespace
+
+void declare_options(CLI::App& command, BenchOptions& options) {
+    declare_what(command, options);
+    declare_how(command, options);
+    declare_output(command, options);
+    declare_execution(command, options);
+}
+
+bench::BenchSettings interpret(const BenchOptions& o) {
+    bench::BenchSettings settings{.scenes = o.scenes,
+                                  .frame = o.frame,
+                                  .threads = o.threads,
+                                  .warmups = o.warmups,
+                                  .repetitions = o.repetitions};
+    if (settings.scenes.empty()) settings.scenes.emplace_back();
+    if (!o.size.empty()) read_size(o.size, settings.image);
+    settings.image.samples_per_pixel = o.samples_per_pixel;
+    settings.execution.isa = kernel_isa(o.isa);
+    settings.execution.trace_isa = shadow::parse_trace_isa(o.trace_isa);
+    if (settings.threads.empty())
+        settings.threads = bench::thread_sweep(parallel::default_thread_count());
+    // Each number once, the fewest first: what speed-ups refer to.
+    std::sort(settings.threads.begin(), settings.threads.end());
+    settings.threads.erase(std::unique(settings.threads.begin(), settings.threads.end()),
+                           settings.threads.end());
+    return settings;
+}
+
+}  // namespace penumbra::cli

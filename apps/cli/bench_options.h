@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/bench/measure.h"
+
+namespace penumbra::cli {
+
+// The options of `penumbra bench`, as the user wrote them.
+struct BenchOptions {
+    std::vector<std::string> scenes;
+    std::string size, isa = "auto", trace_isa = "avx2";
+    std::vector<int> threads;
+    int frame = 0;
+    int samples_per_pixel = 0;
+    int warmups = 2;
+    int repetitions = 11;
+    std::string json, csv, trace;
+};
+
+void declare_options(CLI::App& command, BenchOptions& options);
+
+// What the words mean. Throws InputError that names the option.
+[[nodiscard]] bench::BenchSettings interpret(const BenchOptions& options);
+
+}  // namespace penumbra::cli

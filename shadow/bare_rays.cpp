@@ -1,0 +1,336 @@
+#include "shadow/bare_rays.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "core/error.h"
+#include "shadow/embree.h"
+
+namespace penumbra::shadow {
+namespace {
+
+alignas(64) constexpr int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                           -1, -1, -1, -1, -1, -1, -1, -1};
+
+// The two versions say the same in different words.
+#if RTC_VERSION_MAJOR >= 4
+struct OccludeContext {
+    RTCOccludedArguments arguments;
+    OccludeContext() {
+        rtcInitOccludedArguments(&arguments);
+        arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    }
+};
+struct IntersectContext {
+    RTCIntersectArguments arguments;
+    IntersectContext() {
+        rtcInitIntersectArguments(&arguments);
+        arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    }
+};
+void trace(RTCScene s, OccludeContext& c, RTCRay& r) {
+    rtcOccluded1(s, &r, &c.arguments);
+}
+void trace(RTCScene s, OccludeContext& c, RTCRay8& r) {
+    rtcOccluded8(kAllValid, s, &r, &c.arguments);
+}
+void trace(RTCScene s, OccludeContext& c, RTCRay16& r) {
+    rtcOccluded16(kAllValid, s, &r, &c.arguments);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit& r) {
+    rtcIntersect1(s, &r, &c.arguments);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit8& r) {
+    rtcIntersect8(kAllValid, s, &r, &c.arguments);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit16& r) {
+    rtcIntersect16(kAllValid, s, &r, &c.arguments);
+}
+#else
+struct OccludeContext : RTCIntersectContext {
+    OccludeContext() {
+        rtcInitIntersectContext(this);
+        flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    }
+};
+struct IntersectContext : RTCIntersectContext {
+    IntersectContext() {
+        rtcInitIntersectContext(this);
+        flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
+};
+void trace(RTCScene s, OccludeContext& c, RTCRay& r) {
+    rtcOccluded1(s, &c, &r);
+}
+void trace(RTCScene s, OccludeContext& c, RTCRay8& r) {
+    rtcOccluded8(kAllValid, s, &c, &r);
+}
+void trace(RTCScene s, OccludeContext& c, RTCRay16& r) {
+    rtcOccluded16(kAllValid, s, &c, &r);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit& r) {
+    rtcIntersect1(s, &c, &r);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit8& r) {
+    rtcIntersect8(kAllValid, s, &c, &r);
+}
+void trace(RTCScene s, IntersectContext& c, RTCRayHit16& r) {
+    rtcIntersect16(kAllValid, s, &c, &r);
+}
+#endif
+
+template <class Packet>
+void load(const RayBatch& b, std::size_t first, std::size_t lanes, Packet& p) {
+    const std::size_t bytes = sizeof(float) * lanes;
+    std::memcpy(p.org_x, &b.origin_x[first], bytes);
+    std::memcpy(p.org_y, &b.origin_y[first], bytes);
+    std::memcpy(p.org_z, &b.origin_z[first], bytes);
+    std::memcpy(p.dir_x, &b.direction_x[first], bytes);
+    std::memcpy(p.dir_y, &b.direction_y[first], bytes);
+    std::memcpy(p.dir_z, &b.direction_z[first], bytes);
+    std::memcpy(p.tfar, &b.far_limit[first], bytes);
+    std::fill_n(p.tnear, lanes, 0.0f);
+    std::fill_n(p.time, lanes, 0.0f);
+    std::fill_n(p.mask, lanes, ~0u);
+    std::fill_n(p.id, lanes, 0u);
+    std::fill_n(p.flags, lanes, 0u);
+}
+
+RTCRay single(const RayBatch& b, std::size_t i) {
+    RTCRay ray{};
+    ray.org_x = b.origin_x[i];
+    ray.org_y = b.origin_y[i];
+    ray.org_z = b.origin_z[i];
+    ray.dir_x = b.direction_x[i];
+    ray.dir_y = b.direction_y[i];
+    ray.dir_z = b.direction_z[i];
+    ray.tfar = b.far_limit[i];
+    ray.mask = ~0u;
+    return ray;
+}
+
+// A blocked ray's far limit becomes -infinity; so are the padding's from the start.
+bool is_blocked(float far_limit) {
+    return far_limit < 0;
+}
+
+template <class Packet>
+int occlude_packets(RTCScene scene, const RayBatch& b, std::size_t lanes) {
+    OccludeContext context;
+    int blocked = 0;
+    for (std::size_t first = 0; first < b.far_limit.size(); first += lanes) {
+        alignas(64) Packet packet;
+        load(b, first, lanes, packet);
+        trace(scene, context, packet);
+        blocked += static_cast<int>(std::count_if(packet.tfar, packet.tfar + lanes, is_blocked));
+    }
+    return blocked - (b.size() - b.count);
+}
+
+int occlude_singles(RTCScene scene, const RayBatch& b) {
+    OccludeContext context;
+    int blocked = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) {
+        RTCRay ray = single(b, i);
+        trace(scene, context, ray);
+        blocked += is_blocked(ray.tfar);
+    }
+    return blocked;
+}
+
+#if RTC_VERSION_MAJOR < 4
+void resize(std::size_t count, RayCallScratch& s) {
+    if (s.near_limit.size() >= count) return;
+    s.near_limit.assign(count, 0.0f);
+    s.time.assign(count, 0.0f);
+    s.far_limit.resize(count);
+    s.mask.assign(count, ~0u);
+    s.id.assign(count, 0u);
+    s.flags.assign(count, 0u);
+}
+
+int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch& s) {
+    OccludeContext context;
+    resize(b.far_limit.size(), s);
+    std::copy(b.far_limit.begin(), b.far_limit.end(), s.far_limit.begin());
+    // Embree writes to none but the far limits.
+    const auto pointer = [](const std::vector<float>& v) { return const_cast<float*>(v.data()); };
+    RTCRayNp rays{.org_x = pointer(b.origin_x),
+                  .org_y = pointer(b.origin_y),
+                  .org_z = pointer(b.origin_z),
+                  .tnear = s.near_limit.data(),
+                  .dir_x = pointer(b.direction_x),
+                  .dir_y = pointer(b.direction_y),
+                  .dir_z = pointer(b.direction_z),
+                  .time = s.time.data(),
+                  .tfar = s.far_limit.data(),
+                  .mask = s.mask.data(),
+                  .id = s.id.data(),
+                  .flags = s.flags.data()};
+    rtcOccludedNp(scene, &context, &rays, static_cast<unsigned>(b.count));
+    return static_cast<int>(
+        std::count_if(s.far_limit.begin(), s.far_limit.begin() + b.count, is_blocked));
+}
+#else
+int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch&) {
+    return occlude_packets<RTCRay16>(scene, b, 16);
+}
+#endif
+
+template <class Packet>
+int intersect_packets(RTCScene scene, const RayBatch& b, std::size_t lanes) {
+    IntersectContext context;
+    int hits = 0;
+    for (std::size_t first = 0; first < b.far_limit.size(); first += lanes) {
+        alignas(64) Packet packet;
+        load(b, first, lanes, packet.ray);
+        std::fill_n(packet.hit.geomID, lanes, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(packet.hit.instID[0], lanes, RTC_INVALID_GEOMETRY_ID);
+        trace(scene, context, packet);
+        hits += static_cast<int>(
+            lanes - static_cast<std::size_t>(std::count(
+                        packet.hit.geomID, packet.hit.geomID + lanes, RTC_INVALID_GEOMETRY_ID)));
+    }
+    return hits;
+}
+
+int intersect_singles(RTCScene scene, const RayBatch& b) {
+    IntersectContext context;
+    int hits = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) {
+        RTCRayHit ray{};
+        ray.ray = single(b, i);
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        trace(scene, context, ray);
+        hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+    return hits;
+}
+
+const char* configuration(TraceIsa isa) {
+    switch (isa) {
+        case TraceIsa::kAvx2:
+            return "isa=avx2,start_threads=0,set_affinity=0";
+        case TraceIsa::kAvx512:
+            return "isa=avx512,start_threads=0,set_affinity=0";
+        case TraceIsa::kAuto:
+            break;
+    }
+    return "start_threads=0,set_affinity=0";
+}
+
+void attach(RTCDevice device, RTCScene scene, const Instance& instance) {
+    const std::size_t vertices = instance.mesh->positions.size();
+    const std::size_t triangles = instance.mesh->triangles.size();
+    if (triangles == 0) return;
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Positions have room behind the last one, as Embree's wide loads ask for.
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               instance.positions.data(), 0, sizeof(Vec3f), vertices);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               instance.mesh->triangles.data(), 0, sizeof(Triangle), triangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+}  // namespace
+
+const char* name(RayCall call) {
+    switch (call) {
+        case RayCall::kSingle:
+            return "single";
+        case RayCall::kPacket8:
+            return "8-packets";
+        case RayCall::kPacket16:
+            return "16-packets";
+        case RayCall::kStream:
+            return "stream";
+    }
+    return "";
+}
+
+std::vector<RayCall> occlude_calls() {
+    std::vector<RayCall> calls = {RayCall::kSingle, RayCall::kPacket8, RayCall::kPacket16};
+#if RTC_VERSION_MAJOR < 4
+    calls.push_back(RayCall::kStream);
+#endif
+    return calls;
+}
+
+std::vector<RayCall> intersect_calls() {
+    return {RayCall::kSingle, RayCall::kPacket8, RayCall::kPacket16};
+}
+
+void RayBatch::add(const Vec3f& origin, const Vec3f& direction, float far) {
+    origin_x.push_back(origin.x);
+    origin_y.push_back(origin.y);
+    origin_z.push_back(origin.z);
+    direction_x.push_back(direction.x);
+    direction_y.push_back(direction.y);
+    direction_z.push_back(direction.z);
+    far_limit.push_back(far);
+    ++count;
+}
+
+void RayBatch::pad() {
+    const int real = count;
+    while (size() % 16 != 0) add({0, 0, 0}, {0, 0, 1}, -std::numeric_limits<float>::infinity());
+    count = real;
+}
+
+struct BareRays::Implementation {
+    explicit Implementation(TraceIsa isa)
+        : device(rtcNewDevice(configuration(isa))), scene(rtcNewScene(device)) {}
+    ~Implementation() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    RTCDevice device;
+    RTCScene scene;
+};
+
+BareRays::BareRays(const SceneView& view, TraceIsa isa, const parallel::Arena& arena)
+    : implementation_(std::make_unique<Implementation>(isa)) {
+    RTCScene scene = implementation_->scene;
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    for (const Instance& instance : view.instances)
+        attach(implementation_->device, scene, instance);
+    arena.run([scene] { rtcCommitScene(scene); });
+    if (rtcGetDeviceError(implementation_->device) != RTC_ERROR_NONE)
+        throw OutputError("the bare ray tracer's tree cannot be built");
+}
+
+BareRays::~BareRays() = default;
+
+int BareRays::occlude(const RayBatch& batch, RayCall call, RayCallScratch& scratch) const {
+    PENUMBRA_ASSERT(batch.size() % 16 == 0, "size = {}", batch.size());
+    RTCScene scene = implementation_->scene;
+    switch (call) {
+        case RayCall::kSingle:
+            return occlude_singles(scene, batch);
+        case RayCall::kPacket8:
+            return occlude_packets<RTCRay8>(scene, batch, 8);
+        case RayCall::kPacket16:
+            return occlude_packets<RTCRay16>(scene, batch, 16);
+        case RayCall::kStream:
+            return occlude_stream(scene, batch, scratch);
+    }
+    return 0;
+}
+
+int BareRays::intersect(const RayBatch& batch, RayCall call) const {
+    PENUMBRA_ASSERT(batch.size() % 16 == 0, "size = {}", batch.size());
+    RTCScene scene = implementation_->scene;
+    if (call == RayCall::kPacket8) return intersect_packets<RTCRayHit8>(scene, batch, 8);
+    if (call == RayCall::kPacket16) return intersect_packets<RTCRayHit16>(scene, batch, 16);
+    return intersect_singles(scene, batch);
+}
+
+}  // namespace penumbra::shadow
