@@ -15,6 +15,8 @@
 #include "apps/renderer/frame_list.h"
 #include "apps/renderer/renderer.h"
 #include "core/error.h"
+#include "core/image/publish.h"
+#include "core/profile/trace.h"
 #include "core/scene/read_scene.h"
 
 namespace penumbra::cli {
@@ -59,6 +61,7 @@ void require_files_of_their_own(const RenderOptions& options, const Scene& scene
                                  renderer::expand_pattern(*options.output.preview, frame));
     }
     if (!options.statistics.empty()) outputs.emplace_back("--stats", options.statistics);
+    if (!options.trace.empty()) outputs.emplace_back("--trace", options.trace);
     require_distinct(outputs, scene.files);
 }
 
@@ -96,12 +99,16 @@ int render(RenderOptions& options) {
         return 0;
     }
 
+    profile::Profile profile;
+    if (!options.trace.empty()) options.execution.profile = &profile;
     Progress progress(progress_style(options), static_cast<int>(frames.size()));
     const renderer::SequenceReport report = renderer::render_sequence(
         scene, frames, options.image, options.execution, options.output,
         [&](const renderer::FrameReport& frame) { progress.report(frame); }, catch_interrupts());
     const int exit_code = report_failures(report);
     if (!options.statistics.empty()) write_statistics(options.statistics, scene, options, report);
+    if (!options.trace.empty())
+        image::write_file_atomically(options.trace, profile::chrome_trace(profile, "penumbra"));
     return exit_code;
 }
 

@@ -205,6 +205,10 @@ void declare_files(CLI::App& command, RenderOptions& o) {
         .add_option("--stats", o.statistics,
                     "Write the times and counts of each frame, see docs/statistics.md")
         ->type_name("FILE.json");
+    command
+        .add_option("--trace", o.trace,
+                    "Write what each thread did when, for ui.perfetto.dev or chrome://tracing")
+        ->type_name("FILE.json");
 }
 
 void declare_execution(CLI::App& command, RenderOptions& o) {

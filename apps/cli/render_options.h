@@ -16,7 +16,7 @@ struct RenderOptions {
     std::string method = "ratio", denoise = "noise-driven", compression = "zip", precision = "half";
     std::string noise_rule = "mean";
     std::string isa = "auto", trace_isa = "avx2", progress = "auto";
-    std::string preview, statistics;
+    std::string preview, statistics, trace;
     bool dry_run = false;
     renderer::ImageSettings image;
     renderer::ExecutionSettings execution;
