@@ -2,9 +2,10 @@
 
 import cornell_box
 import cubes
+import pixel_grid
 import teapot
 import textured_wall
 import turntable
 
-for scene in (cornell_box, cubes, textured_wall, teapot, turntable):
+for scene in (cornell_box, cubes, pixel_grid, textured_wall, teapot, turntable):
     scene.main()
