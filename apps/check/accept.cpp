@@ -23,6 +23,7 @@ struct Entry {
     }
     void refuse(const std::string& why) const {
         frame->verdict = Verdict::kUnfit;
+        frame->is_render_refused = is_candidate;
         frame->message = is_candidate ? fmt::format("the new render {}: it is not taken", why)
                                       : fmt::format("{} {}", frame->golden.string(), why);
     }

@@ -37,13 +37,11 @@ Needs needs_of(const CheckOutcome& outcome) {
     if (outcome.error) return needs;
     for (const FrameOutcome& frame : outcome.frames) {
         const bool is_sound = frame.render_fitness && frame.render_fitness->problem.empty();
-        if (!is_sound) continue;
+        if (!is_sound || frame.is_render_refused) continue;
         needs.bless = needs.bless || frame.verdict == Verdict::kMissing;
         // An unfit golden can be replaced where the new picture is another one.
-        const bool differs = frame.comparison && !frame.comparison->passed();
-        needs.update = needs.update || (frame.verdict == Verdict::kFailed && differs) ||
-                       (frame.verdict == Verdict::kUnfit && differs && frame.golden_fitness &&
-                        !frame.golden_fitness->problem.empty());
+        needs.update = needs.update ||
+                       (frame.comparison && !frame.comparison->passed() && !is_good(frame.verdict));
     }
     return needs;
 }

@@ -37,10 +37,8 @@ std::string single_picture(const FrameOutcome& frame) {
         const auto picture = picture_of(frame.render);
         if (!picture) return "";
         return fmt::format(
-            "<figure class=\"render\"><img alt=\"\" src=\"{}\"><figcaption>new{}</figcaption>"
-            "</figure>\n",
-            diff::html_data_uri(*picture),
-            frame.verdict == Verdict::kMissing ? ", nothing to compare with" : "");
+            "<figure class=\"render\"><img alt=\"the new picture\" src=\"{}\"></figure>\n",
+            diff::html_data_uri(*picture));
     } catch (const InputError& error) {
         return fmt::format("<p>{}</p>\n", diff::html_escaped(error.what()));
     }

@@ -77,11 +77,13 @@ std::string tolerance_of(const CheckSettings& settings) {
 std::string facts_of(const CheckOutcome& outcome) {
     const std::string scene = outcome.settings.scene.empty() ? outcome.check.scene.string()
                                                              : outcome.settings.scene.string();
-    std::string html = fmt::format("<div class=\"files\">scene {}<br>allowed: {}",
-                                   html_escaped(scene), tolerance_of(outcome.settings));
+    std::string html = "<div class=\"files\">";
+    if (!scene.empty()) html += fmt::format("scene {}, ", html_escaped(scene));
+    html += "allowed: " + tolerance_of(outcome.settings);
     if (!outcome.command.empty())
-        html += fmt::format("<br>rendered in {:.2f} s by <code>{}</code>", outcome.seconds,
-                            html_escaped(shell_line(outcome.command)));
+        html +=
+            fmt::format("<details><summary>rendered in {:.2f} s</summary><code>{}</code></details>",
+                        outcome.seconds, html_escaped(shell_line(outcome.command)));
     return html + "</div>\n";
 }
 
@@ -90,7 +92,9 @@ std::string troubles_of(const CheckOutcome& outcome) {
     if (outcome.error)
         html += fmt::format("<p><b>{}</b> {}</p>\n", name(outcome.error->kind),
                             html_escaped(outcome.error->message));
-    if (!outcome.log.empty()) html += fmt::format("<pre>{}</pre>\n", html_escaped(outcome.log));
+    const bool is_said = outcome.error && outcome.error->exit_code() == 2;
+    if (!outcome.log.empty() && !is_said)
+        html += fmt::format("<pre>{}</pre>\n", html_escaped(outcome.log));
     for (const std::string& warning : outcome.warnings)
         html += fmt::format("<p>warning: {}</p>\n", html_escaped(warning));
     return html;
@@ -113,7 +117,7 @@ void write_frame(const FrameOutcome& frame, image::PendingFile& file) {
     const auto write = [&](std::string_view text) {
         file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     };
-    write("<section class=\"frame\">" + frame_head(frame));
+    write("<section class=\"frame\" data-labels=\"golden,new,difference\">" + frame_head(frame));
     if (!frame.pictures.empty()) {
         std::ifstream stream(frame.pictures, std::ios::binary);
         if (!stream) throw OutputError(frame.pictures, "cannot be read any more");
@@ -151,9 +155,12 @@ void write_html_report(const std::filesystem::path& target,
     write(fmt::format("<style>\n{}</style>\n", page_file("check.css")));
     write(filter_bar(outcomes));
     write(command_box("to accept all of this:", accept_command(invocation, outcomes)));
-    for (const Verdict verdict : kGravestFirst)
+    for (const Verdict verdict : kGravestFirst) {
+        if (verdict == Verdict::kPassed) write("<div class=\"gallery\">\n");
         for (const CheckOutcome& outcome : outcomes)
             if (outcome.verdict() == verdict) write_check(outcome, invocation, file);
+    }
+    write("</div>\n");
     write(fmt::format("<script>\n{}</script>\n", page_file("check.js")));
     write(diff::html_end());
     file.publish();

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel/cgroup.h"
+#include "core/parallel/proc_text.h"
 #include "core/scene/input_files.h"
 #include "core/scene/json_node.h"
 
@@ -54,6 +55,17 @@ void read_size(const std::string& text, Size& size) {
     if (error == std::errc{} && after_height == end) size = given;
 }
 
+// What could be had without swapping; a guess where the kernel does not say.
+std::uint64_t bytes_of_machine() {
+    const std::string text = parallel::read_text("/proc/meminfo");
+    for (const std::string_view line : parallel::split_words(text, "\n")) {
+        const auto words = parallel::split_words(line, " ");
+        if (words.size() == 3 && words[0] == "MemAvailable:")
+            return static_cast<std::uint64_t>(parallel::parse_integer(words[1]).value_or(0)) * 1024;
+    }
+    return std::uint64_t{1} << 32;
+}
+
 }  // namespace
 
 std::uint64_t estimated_bytes(const Check& check, const CheckSettings& settings) {
@@ -78,12 +90,11 @@ std::uint64_t estimated_bytes(const Check& check, const CheckSettings& settings)
 }
 
 std::uint64_t available_bytes() {
-    std::ifstream file("/proc/meminfo");
-    std::string word;
-    std::uint64_t kibibytes = 0;
-    while (file >> word)
-        if (word == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
-    return std::uint64_t{1} << 32;
+    const std::uint64_t machine = bytes_of_machine();
+    const auto cgroup = parallel::cgroup_memory_left(
+        parallel::cgroup_folders(parallel::read_text("/proc/self/cgroup"),
+                                 parallel::read_text("/proc/self/mountinfo"), "memory", "/"));
+    return std::min(machine, cgroup.value_or(machine));
 }
 
 }  // namespace penumbra::check

@@ -11,7 +11,8 @@ namespace penumbra::check {
 // little for scenes of models; a scene that cannot be read needs next to nothing.
 [[nodiscard]] std::uint64_t estimated_bytes(const Check& check, const CheckSettings& settings);
 
-// Bytes that renders may share now: what the machine has left.
+// Bytes that renders may share now: what the machine, and the cgroups this process is in, have
+// left.
 [[nodiscard]] std::uint64_t available_bytes();
 
 }  // namespace penumbra::check

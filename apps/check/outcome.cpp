@@ -11,12 +11,29 @@ std::string prefix(const FrameOutcome& frame) {
     return frame.frame.empty() ? "" : fmt::format("frame {}: ", frame.frame);
 }
 
+// ", max 0.1, psnr 38.4": the layer's numbers, as far as it has them.
+std::string numbers(const diff::PairReport& comparison, const std::string& layer_name) {
+    std::string text;
+    for (const diff::LayerReport& layer : comparison.layers) {
+        if (layer.name != layer_name) continue;
+        for (const diff::Metric metric :
+             {diff::Metric::kMax, diff::Metric::kRmse, diff::Metric::kPsnr, diff::Metric::kSsim,
+              diff::Metric::kFlip})
+            if (const auto& value = layer.metrics[metric])
+                text += fmt::format(", {} {:.4g}", diff::info(metric).name, *value);
+    }
+    return text;
+}
+
 void add_comparison(const FrameOutcome& frame, std::vector<std::string>& lines) {
     if (!frame.comparison) return;
-    for (const diff::Failure& failure : frame.comparison->failures)
-        lines.push_back(fmt::format("{}{}: {}{}{}", prefix(frame), diff::name(failure.kind),
-                                    failure.layer, failure.layer.empty() ? "" : ": ",
-                                    failure.message));
+    for (const diff::Failure& failure : frame.comparison->failures) {
+        const bool is_difference = failure.kind == diff::FailureKind::kDiffers;
+        lines.push_back(
+            fmt::format("{}{}: {}{}{}{}", prefix(frame), diff::name(failure.kind), failure.layer,
+                        failure.layer.empty() ? "" : ": ", failure.message,
+                        is_difference ? numbers(*frame.comparison, failure.layer) : ""));
+    }
     const std::string worst = worst_place(*frame.comparison);
     if (!worst.empty()) lines.push_back(prefix(frame) + worst);
 }

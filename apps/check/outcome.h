@@ -50,6 +50,7 @@ struct FrameOutcome {
     std::filesystem::path golden, render;
     Verdict verdict = Verdict::kPassed;
     std::string message{};                         // why it is unfit
+    bool is_render_refused = false;                // the new picture cannot be the golden
     std::optional<diff::PairReport> comparison{};  // without pictures
     std::optional<Fitness> golden_fitness{}, render_fitness{};
     std::filesystem::path pictures{};  // a piece of HTML, where the run was asked for it

@@ -20,6 +20,28 @@
     };
   text.oninput = apply;
 
+  // Golden, new and difference at a glance; a click shows one of them in the viewer below.
+  for (const viewer of document.querySelectorAll(".frame .viewer")) {
+    const stage = viewer.querySelector(".stage");
+    const labels = viewer.closest("[data-labels]").dataset.labels.split(",");
+    const glance = document.createElement("div");
+    glance.className = "glance";
+    ["reference", "test", "heat"].forEach((key, i) => {
+      const figure = document.createElement("figure");
+      const caption = document.createElement("figcaption");
+      const image = new Image();
+      image.src = stage.dataset[key];
+      image.alt = caption.textContent = labels[i];
+      figure.append(image, caption);
+      figure.onclick = () => {
+        viewer.querySelector(`[data-mode="${i === 2 ? "heat" : "side"}"]`).click();
+        stage.scrollIntoView({ block: "nearest", behavior: "smooth" });
+      };
+      glance.append(figure);
+    });
+    viewer.prepend(glance);
+  }
+
   // Pages opened from a file may lack the clipboard of secure ones.
   const copy = async code => {
     try {

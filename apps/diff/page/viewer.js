@@ -4,7 +4,9 @@
 function viewer(root) {
   const stage = root.querySelector(".stage");
   const source = ["reference", "test", "heat"].map(k => stage.dataset[k]);
-  const labels = ["reference", "test", "error map"];
+  // Other reports have other names for them.
+  const labels = (root.closest("[data-labels]")?.dataset.labels ?? "reference,test,error map")
+                     .split(",");
   const state = { mode: "flip", shown: 0, scale: 1, x: 0, y: 0, split: 0.5, timer: null };
   const size = new Image();
 
