@@ -11,6 +11,7 @@
 #include "apps/cli/option_checks.h"
 #include "apps/cli/say.h"
 #include "apps/diff/html_report.h"
+#include "apps/diff/ignored_layers.h"
 #include "apps/diff/pairs.h"
 #include "core/error.h"
 #include "core/image/publish.h"
@@ -39,7 +40,7 @@ void print_metrics(const diff::PairReport& pair) {
     for (const diff::MetricInfo& metric : diff::metric_table()) say(stdout, " {:>10}", metric.name);
     say(stdout, "\n");
     for (const diff::LayerReport& layer : pair.layers) {
-        say(stdout, "  {:<16}", layer.name);
+        say(stdout, "  {:<16}", one_line(layer.name));
         for (const diff::MetricInfo& metric : diff::metric_table()) {
             const auto& value = layer.metrics[metric.metric];
             say(stdout, " {:>10}", value ? fmt::format("{:.5g}", *value) : "-");
@@ -54,14 +55,14 @@ void print(const diff::PairReport& pair, bool is_only_one) {
         std::any_of(pair.layers.begin(), pair.layers.end(),
                     [](const diff::LayerReport& layer) { return layer.differs(); });
     const char* verdict = !pair.passed() ? "FAILED" : differs ? "within limits" : "same";
-    if (pair.exit_code() != 2) say(stdout, "{}: {}\n", verdict, pair.name);
+    if (pair.exit_code() != 2) say(stdout, "{}: {}\n", verdict, one_line(pair.name));
     if (differs || (is_only_one && !pair.layers.empty())) print_metrics(pair);
     for (const diff::Failure& failure : pair.failures) {
         if (diff::is_input_error(failure.kind))
-            say(stderr, "error: {}\n", failure.message);
+            say_error(failure.message);
         else
-            say(stdout, "  {}: {}{}{}\n", diff::name(failure.kind), failure.layer,
-                failure.layer.empty() ? "" : ": ", failure.message);
+            say(stdout, "  {}: {}{}{}\n", diff::name(failure.kind), one_line(failure.layer),
+                failure.layer.empty() ? "" : ": ", one_line(failure.message));
     }
 }
 
@@ -100,10 +101,10 @@ void check_heatmap(const DiffOptions& options, std::size_t pairs) {
                         pairs, options.heatmap));
 }
 
-void check_ignored(const DiffOptions& options, const std::set<std::string>& seen) {
-    for (const std::string& layer : options.ignored_layers)
-        if (!seen.contains(layer))
-            throw InputError(fmt::format("--ignore-layers: no image has a layer \"{}\"", layer));
+void check_ignored(const diff::CompareSettings& settings,
+                   const std::vector<diff::FilePair>& pairs) {
+    for (const std::string& layer : diff::find_unknown_layers(pairs, settings.ignored_layers))
+        throw InputError(fmt::format("--ignore-layers: no image has a layer \"{}\"", layer));
 }
 
 int run_diff(const DiffOptions& options) {
@@ -111,28 +112,24 @@ int run_diff(const DiffOptions& options) {
     const diff::CompareSettings settings = interpret(options, mask);
     const std::vector<diff::FilePair> pairs = diff::find_pairs(options.reference, options.test);
     check_heatmap(options, pairs.size());
+    check_ignored(settings, pairs);
     const parallel::Arena arena(options.threads > 0 ? options.threads
                                                     : parallel::default_thread_count());
     DiffJson json(options, settings);
     std::optional<diff::HtmlReport> html;
     if (!options.html.empty())
         html.emplace(options.html, options.reference + " and " + options.test, settings.thresholds);
-    std::set<std::string> ignored;
     int exit_code = 0;
-    bool all_opened = true;
     for (const diff::FilePair& pair : pairs) {
         diff::PairReport report = diff::compare_files(pair.reference, pair.test, settings, arena);
         report.name = pair.name;
         print(report, pairs.size() == 1);
         exit_code = gravest(exit_code, report.exit_code());
-        all_opened = all_opened && !report.layers.empty();
-        ignored.insert(report.ignored_layers.begin(), report.ignored_layers.end());
         json.add(report);
         if (html) html->add(report);
         if (report.heat && !options.heatmap.empty())
             image::write_png(heatmap_path(options.heatmap, pair, options.reference), *report.heat);
     }
-    if (all_opened) check_ignored(options, ignored);
     if (!options.json.empty()) json.write(options.json, exit_code);
     if (html) html->publish();
     return exit_code;

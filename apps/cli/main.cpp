@@ -29,7 +29,7 @@ constexpr const char* kFooter =
     "  130 143 129  interrupted by Ctrl-C, SIGTERM or SIGHUP; what is on disk is whole";
 
 int report(const std::string& message, int exit_code) {
-    penumbra::cli::say(stderr, "error: {}\n", message);
+    penumbra::cli::say_error(message);
     return exit_code;
 }
 

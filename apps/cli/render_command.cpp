@@ -75,7 +75,7 @@ int report_failures(const renderer::SequenceReport& report) {
     for (const renderer::FrameReport& frame : report.frames) {
         if (frame.outcome != renderer::FrameOutcome::kFailed) continue;
         ++failed;
-        say(stderr, "error: frame {}: {}\n", frame.frame, frame.error);
+        say_error(fmt::format("frame {}: {}", frame.frame, frame.error));
     }
     if (report.interrupted) return interrupt_exit_code();
     return failed > 0 ? kSomeFramesFailed : 0;
@@ -85,7 +85,7 @@ int render(RenderOptions& options) {
     interpret(options);
     const Scene scene =
         options.scene.empty() ? renderer::read_builtin_scene() : read_scene(options.scene);
-    for (const std::string& warning : scene.warnings) say(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : scene.warnings) say(stderr, "warning: {}\n", one_line(warning));
     const std::vector<int> frames = frames_of(options, scene);
     if (options.output.pattern.empty())
         options.output.pattern = default_pattern(options, frames.size());

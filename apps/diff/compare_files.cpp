@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "apps/diff/layers.h"
 #include "apps/diff/part_comparison.h"
@@ -10,13 +11,26 @@
 namespace penumbra::diff {
 namespace {
 
-void check_mask(const Mask* mask, const ImageSource& image, const std::string& path) {
-    if (mask == nullptr) return;
+// The mask has to have the size of the display window; nothing else is compared then.
+std::optional<Failure> check_mask(const Mask* mask, const ImageSource& image,
+                                  const std::string& path) {
+    if (mask == nullptr) return std::nullopt;
     for (const SourcePart& part : image.parts())
         if (part.display.width() != mask->width() || part.display.height() != mask->height())
-            throw InputError(fmt::format("--mask: has {} x {} pixels, but {} has {} x {}",
-                                         mask->width(), mask->height(), path, part.display.width(),
-                                         part.display.height()));
+            return Failure{
+                FailureKind::kMask, "",
+                fmt::format("--mask: has {} x {} pixels, but {} has {} x {}", mask->width(),
+                            mask->height(), path, part.display.width(), part.display.height())};
+    return std::nullopt;
+}
+
+// What holds the data windows of all parts.
+image::Window window_of(const ImageSource& image) {
+    image::Window all = image.parts().front().data;
+    for (const SourcePart& part : image.parts())
+        all = {std::min(all.x0, part.data.x0), std::min(all.y0, part.data.y0),
+               std::max(all.x1, part.data.x1), std::max(all.y1, part.data.y1)};
+    return all;
 }
 
 std::vector<LayerPair> pair_layers(const ImageSource& reference, const ImageSource& test, int part,
@@ -80,6 +94,36 @@ void judge_layer(const LayerReport& layer, const CompareSettings& settings,
          fmt::format("{}: up to {} of {} pixels differ{}", channels, most, layer.pixels, why)});
 }
 
+void compare_parts(ImageSource& reference, ImageSource& test, const CompareSettings& settings,
+                   const parallel::Arena& arena, PairReport& report) {
+    std::optional<HeatCanvas> heat;
+    if (settings.pictures != PictureWish::kNone) heat.emplace(window_of(reference));
+    for (int part = 0; part < static_cast<int>(reference.parts().size()); ++part) {
+        const auto layers = pair_layers(reference, test, part, settings.ignored_layers);
+        if (layers.empty()) continue;
+        const PartTiles tiles(reference, test, part, settings, arena);
+        auto reports = compare_part(tiles, layers, heat ? &*heat : nullptr);
+        report.layers.insert(report.layers.end(), std::make_move_iterator(reports.begin()),
+                             std::make_move_iterator(reports.end()));
+    }
+    if (heat) report.heat = heat->picture();
+}
+
+void judge(const CompareSettings& settings, PairReport& report) {
+    if (report.layers.empty())
+        report.failures.push_back(
+            {FailureKind::kNothing, "",
+             fmt::format("--ignore-layers: leaves nothing of {} to compare", report.reference)});
+    for (const LayerReport& layer : report.layers) {
+        if (layer.pixels > 0) continue;
+        report.failures.push_back(
+            {FailureKind::kMask, "",
+             fmt::format("--mask: leaves no pixel of {} to compare", report.reference)});
+        return;
+    }
+    for (const LayerReport& layer : report.layers) judge_layer(layer, settings, report.failures);
+}
+
 }  // namespace
 
 PairReport compare_files(const std::filesystem::path& reference, const std::filesystem::path& test,
@@ -97,27 +141,17 @@ PairReport compare_files(const std::filesystem::path& reference, const std::file
                 report.ignored_layers.push_back(layer.name);
     report.failures = compare_structure(*a, *b, settings.ignored_layers);
     if (!report.failures.empty()) return report;
-    check_mask(settings.mask, *a, report.reference);
+    if (const auto failure = check_mask(settings.mask, *a, report.reference)) {
+        report.failures.push_back(*failure);
+        return report;
+    }
     try {
-        for (int part = 0; part < static_cast<int>(a->parts().size()); ++part) {
-            PartComparison comparison(*a, *b, part, settings, arena);
-            const auto layers = pair_layers(*a, *b, part, settings.ignored_layers);
-            if (layers.empty()) continue;
-            const auto reports = comparison.run(layers, part == 0 ? &report.heat : nullptr);
-            report.layers.insert(report.layers.end(), reports.begin(), reports.end());
-        }
+        compare_parts(*a, *b, settings, arena, report);
     } catch (const InputError& error) {
         report.failures.push_back({FailureKind::kDamaged, "", error.what()});
         return report;
     }
-    if (report.layers.empty())
-        throw InputError(
-            fmt::format("--ignore-layers: leaves nothing of {} to compare", report.reference));
-    for (const LayerReport& layer : report.layers)
-        if (layer.pixels == 0)
-            throw InputError(
-                fmt::format("--mask: leaves no pixel of {} to compare", report.reference));
-    for (const LayerReport& layer : report.layers) judge_layer(layer, settings, report.failures);
+    judge(settings, report);
     return report;
 }
 

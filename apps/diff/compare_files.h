@@ -23,8 +23,7 @@ struct CompareSettings {
 };
 
 // Compares two files. What is wrong with them, unreadable ones included, stands in the report.
-// Images are read in bands: memory does not grow with their height. Throws InputError where the
-// mask's size is not that of the images.
+// Images are read in bands: memory does not grow with their height.
 [[nodiscard]] PairReport compare_files(const std::filesystem::path& reference,
                                        const std::filesystem::path& test,
                                        const CompareSettings& settings,

@@ -121,6 +121,10 @@ std::unique_ptr<ImageSource> open_exr(const std::filesystem::path& file, int wor
 
 }  // namespace
 
+bool begins_like_exr(const std::filesystem::path& file) {
+    return detect(file) == Format::kExr;
+}
+
 std::unique_ptr<ImageSource> open_image(const std::filesystem::path& file, int workers,
                                         std::vector<Failure>& failures) {
     if (!std::filesystem::exists(file)) {

@@ -50,6 +50,9 @@ class ImageSource {
     bool is_display_coded_ = false;
 };
 
+// By the first bytes; false where there is no such file.
+[[nodiscard]] bool begins_like_exr(const std::filesystem::path& file);
+
 // Opens a file for as many workers; nullptr, with one more failure, where that is not possible.
 [[nodiscard]] std::unique_ptr<ImageSource> open_image(const std::filesystem::path& file,
                                                       int workers, std::vector<Failure>& failures);

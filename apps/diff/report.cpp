@@ -5,16 +5,15 @@
 namespace penumbra::diff {
 
 std::string_view name(FailureKind kind) {
-    constexpr std::string_view kNames[] = {"missing",   "not-an-image", "unsupported", "incomplete",
-                                           "damaged",   "format",       "parts",       "size",
-                                           "window",    "channels",     "type",        "non-finite",
-                                           "threshold", "differs"};
+    constexpr std::string_view kNames[] = {
+        "missing", "not-an-image", "unsupported", "mask",   "nothing-left", "incomplete",
+        "damaged", "format",       "parts",       "size",   "window",       "channels",
+        "type",    "non-finite",   "threshold",   "differs"};
     return kNames[static_cast<int>(kind)];
 }
 
 bool is_input_error(FailureKind kind) {
-    return kind == FailureKind::kMissing || kind == FailureKind::kNotAnImage ||
-           kind == FailureKind::kUnsupported;
+    return kind <= FailureKind::kNothing;
 }
 
 bool LayerReport::differs() const {

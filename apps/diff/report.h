@@ -18,6 +18,8 @@ enum class FailureKind {
     kMissing,      // a file is not there: exit code 2
     kNotAnImage,   // of no known format: 2
     kUnsupported,  // an EXR that is deep or subsampled: 2
+    kMask,         // not of the picture's size, or black: 2
+    kNothing,      // no layer is left to compare: 2
     kIncomplete,   // blocks of pixels are missing
     kDamaged,      // begins like an image but cannot be read
     kFormat,       // other kinds of files: one is display-coded, one scene-linear
@@ -89,7 +91,8 @@ struct PairReport {
     std::vector<Failure> failures;
     std::vector<LayerReport> layers;
     std::vector<std::string> ignored_layers;
-    // Over all layers: the largest error at each pixel. Only where asked for.
+    // Over all layers and parts: the largest error at each pixel of all data windows. Only where
+    // asked for.
     std::optional<image::Picture> heat;
 
     [[nodiscard]] bool passed() const { return failures.empty(); }

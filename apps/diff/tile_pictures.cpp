@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "apps/diff/colour_region.h"
@@ -13,10 +14,11 @@ namespace {
 constexpr int kLargestSide = 4096;
 constexpr double kVisibleError = 0.08;
 
-int reduction_of(int width, int height) {
+constexpr int kNoLimit = 1 << 18;
+
+int reduction_of(int width, int height, int limit) {
     int reduction = 1;
-    while (reduction < kTileHeight && std::max(width, height) > kLargestSide * reduction)
-        reduction *= 2;
+    while (reduction < limit && std::max(width, height) > kLargestSide * reduction) reduction *= 2;
     return reduction;
 }
 
@@ -145,7 +147,7 @@ image::Picture colour_map(const std::vector<std::uint8_t>& heat, int width, int 
 }
 
 PictureCanvas::PictureCanvas(int width, int height)
-    : reduction_(reduction_of(width, height)),
+    : reduction_(reduction_of(width, height, kTileHeight)),  // tiles begin at whole pixels
       width_((width + reduction_ - 1) / reduction_),
       height_((height + reduction_ - 1) / reduction_) {
     picture_ = {width_, height_, 3, {}};
@@ -168,24 +170,28 @@ void PictureCanvas::place(const image::Picture& tile, int x0, int y0) {
             }
 }
 
-HeatCanvas::HeatCanvas(int width, int height)
-    : reduction_(reduction_of(width, height)),
-      width_((width + reduction_ - 1) / reduction_),
-      height_((height + reduction_ - 1) / reduction_),
+HeatCanvas::HeatCanvas(const image::Window& window, int reduction)
+    : window_(window),
+      reduction_(reduction),
+      width_((window.width() + reduction - 1) / reduction),
+      height_((window.height() + reduction - 1) / reduction),
       heat_(static_cast<std::size_t>(width_) * height_) {}
 
-void HeatCanvas::place(const std::vector<std::uint8_t>& tile, const TileRect& at) {
-    std::size_t from = 0;
-    for (int y = at.y0; y < at.y1; ++y)
-        for (int x = at.x0; x < at.x1; ++x, ++from) {
-            std::uint8_t& to =
-                heat_[static_cast<std::size_t>(y / reduction_) * width_ + x / reduction_];
-            to = std::max(to, tile[from]);
-        }
-}
+HeatCanvas::HeatCanvas(const image::Window& window)
+    : HeatCanvas(window, reduction_of(window.width(), window.height(), kNoLimit)) {}
 
-void HeatCanvas::add(const HeatCanvas& other) {
-    for (std::size_t i = 0; i < heat_.size(); ++i) heat_[i] = std::max(heat_[i], other.heat_[i]);
+void HeatCanvas::place(const std::vector<std::uint8_t>& tile, const TileRect& at, int x0, int y0) {
+    std::size_t from = 0;
+    for (int y = at.y0 + y0 - window_.y0; y < at.y1 + y0 - window_.y0; ++y)
+        for (int x = at.x0 + x0 - window_.x0; x < at.x1 + x0 - window_.x0; ++x, ++from) {
+            const std::size_t to =
+                static_cast<std::size_t>(y / reduction_) * width_ + x / reduction_;
+            const std::atomic_ref<std::uint8_t> shared(heat_[to]);
+            std::uint8_t present = shared.load(std::memory_order_relaxed);
+            while (present < tile[from] &&
+                   !shared.compare_exchange_weak(present, tile[from], std::memory_order_relaxed)) {
+            }
+        }
 }
 
 }  // namespace penumbra::diff

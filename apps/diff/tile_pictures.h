@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "apps/diff/tile_metrics.h"
@@ -31,22 +32,28 @@ class PictureCanvas {
 
     // Colours are averaged over what one pixel stands for. Tiles may be placed at once.
     void place(const image::Picture& tile, int x0, int y0);
-    [[nodiscard]] const image::Picture& picture() const { return picture_; }
+    [[nodiscard]] image::Picture take() { return std::move(picture_); }
 
   private:
     int reduction_, width_, height_;
     image::Picture picture_;
 };
 
-// The same for error maps, of which the largest value is kept.
+// The same for error maps, of which the largest value is kept. Tiles may be placed at once, on each
+// other, too.
 class HeatCanvas {
   public:
-    HeatCanvas(int width, int height);
-    void place(const std::vector<std::uint8_t>& tile, const TileRect& at);
-    void add(const HeatCanvas& other);  // of the same size
+    // Of the pixels in the window; reduced as wished, or by a power of two so that no side is above
+    // 4096.
+    HeatCanvas(const image::Window& window, int reduction);
+    explicit HeatCanvas(const image::Window& window);
+
+    // A tile of a part whose data window begins at (x0, y0).
+    void place(const std::vector<std::uint8_t>& tile, const TileRect& at, int x0, int y0);
     [[nodiscard]] image::Picture picture() const { return colour_map(heat_, width_, height_); }
 
   private:
+    image::Window window_;
     int reduction_, width_, height_;
     std::vector<std::uint8_t> heat_;
 };

@@ -14,6 +14,7 @@
 
 #include "core/image/exr.h"
 #include "core/image/png.h"
+#include "tests/cli/diff_corpus_formats.h"
 
 // Usage: diff_corpus: writes the images of tests/cli/diff_test.sh into the current folder.
 
@@ -170,9 +171,31 @@ void write_mask(const std::string& name) {
     image::write_png(name, picture);
 }
 
+void write_formats() {
+    write_tiled("tiles.exr", false, 0, 0);
+    write_tiled("tiles_pixel.exr", false, 0.5f, 0);
+    write_tiled("mipmap.exr", true, 0, 0.25f);
+    write_tiled("mipmap_level.exr", true, 0, 0.75f);
+    write_tiled("mipmap_pixel.exr", true, 0.5f, 0.25f);
+    write("scanlines.exr", {.channels = {"R", "G", "B"}});
+    write_deep("deep.exr");
+    write_windows("windows.exr", 0.5f);
+    write_windows("windows_pixel.exr", 0.75f);
+    write_jpeg("picture.jpg", 90, 0);
+    write_jpeg("same.jpg", 90, 0);
+    write_jpeg("other_quality.jpg", 50, 0);
+    write_jpeg("pixel.jpg", 90, 60);
+    write_radiance("picture.hdr", 70, 0);
+    write_radiance("same.hdr", 70, 0);
+    write_radiance("pixel.hdr", 70, 0.25f);
+    write_radiance("narrow.hdr", 7, 0);
+    write_radiance("narrow_pixel.hdr", 7, 0.25f);
+}
+
 }  // namespace
 
 int main() {
+    write_formats();
     write_mask("mask.png");
     write_values();
     write_shapes();

@@ -76,6 +76,32 @@ check "a PNG and itself" verdict 0 - rgb.png rgb.png
 check "a step of 1/255 in a PNG" verdict 1 differs rgb.png rgb_pixel.png
 check "RGB and RGBA" verdict 1 channels rgb.png rgba.png
 check "a step within the limit" verdict 0 - rgb.png rgb_pixel.png --fail-above max=0.004
+check "tiles and scan lines with equal pixels" verdict 0 - scanlines.exr tiles.exr
+check "a pixel of the last tile" verdict 1 differs tiles.exr tiles_pixel.exr
+check "mip-maps: the full size counts" verdict 0 - mipmap.exr tiles.exr
+check "mip-maps: smaller levels do not" verdict 0 - mipmap.exr mipmap_level.exr
+check "mip-maps: a pixel of the full size" verdict 1 differs mipmap.exr mipmap_pixel.exr
+check "a deep EXR" verdict 2 unsupported ref.exr deep.exr
+check "one line says so" refuses 2 "deep" "$penumbra" diff ref.exr deep.exr
+head -c $(($(stat -c %s tiles.exr) - 30)) tiles.exr >cut_tiles.exr
+check "an incomplete tiled EXR" verdict 1 incomplete tiles.exr cut_tiles.exr
+check "parts with windows of their own" verdict 0 - windows.exr windows.exr
+check "a pixel of the second window" verdict 1 differs windows.exr windows_pixel.exr
+check "other windows of parts" verdict 1 size windows.exr parts.exr
+check "a JPEG and its copy" verdict 0 - picture.jpg same.jpg
+check "a JPEG of another quality" verdict 1 differs picture.jpg other_quality.jpg
+check "a JPEG of which a pixel differs" verdict 1 differs picture.jpg pixel.jpg
+check "that passes a wide limit" verdict 0 - picture.jpg pixel.jpg --fail-above flip=0.05
+head -c $(($(stat -c %s picture.jpg) / 2)) picture.jpg >cut.jpg
+check "an incomplete JPEG" verdict 1 damaged picture.jpg cut.jpg
+check "a JPEG and an HDR" verdict 1 format picture.jpg picture.hdr
+check "an HDR and its copy" verdict 0 - picture.hdr same.hdr
+check "a pixel of an HDR" verdict 1 differs picture.hdr pixel.hdr
+check "that HDR-FLIP sees" verdict 1 threshold picture.hdr pixel.hdr --fail-above hdr-flip=0
+check "a pixel of an HDR without runs" verdict 1 differs narrow.hdr narrow_pixel.hdr
+check "another size of an HDR" verdict 1 size picture.hdr narrow.hdr
+head -c $(($(stat -c %s picture.hdr) - 10)) picture.hdr >cut.hdr
+check "an incomplete HDR" verdict 1 damaged picture.hdr cut.hdr
 check "16k images that are the same" verdict 0 - 16k.exr 16k_same.exr
 check "16k images of which a pixel differs" verdict 1 differs 16k_same.exr 16k_pixel.exr --metrics max,pixels
 
@@ -104,6 +130,15 @@ check "a limit of NaN" refuses 2 "--fail-above" "$penumbra" diff ref.exr same.ex
 check "a mask of another size" refuses 2 "--mask" "$penumbra" diff ref.exr same.exr --mask rgb.png
 check "a black mask" refuses 2 "no pixel" "$penumbra" diff single.exr single.exr --mask single.exr
 check "nothing left to compare" refuses 2 "--ignore-layers" "$penumbra" diff ref.exr same.exr --ignore-layers beauty
+check "that has a kind" verdict 2 nothing-left ref.exr same.exr --ignore-layers beauty
+check "so has a mask of another size" verdict 2 mask ref.exr same.exr --mask rgb.png
+check "an unknown layer is refused before anything is compared" bash -c \
+    "! '$penumbra' diff ref.exr one_pixel.exr --ignore-layers depht --json no.json >stdout 2>&1 && test ! -e no.json && ! grep -q FAILED stdout"
+cp nowhere.exr "two
+lines.exr" 2>/dev/null || cp text.exr "two
+lines.exr"
+check "a name of two lines is said in one" refuses 2 'two\nlines.exr' "$penumbra" diff ref.exr "two
+lines.exr"
 
 # ---- several files
 mkdir -p a/sub b/sub
@@ -124,11 +159,23 @@ cp rgb_pixel.png b/sub/two.png
 check "a difference in a sub-folder" verdict 1 differs a b
 rm b/sub/two.png
 check "a file that only one folder has" verdict 2 missing a b
+mkdir -p masked/a masked/b
+for side in a b; do cp ref.exr masked/$side/1.exr && cp wider.exr masked/$side/2.exr && cp ref.exr masked/$side/3.exr; done
+cp one_ulp.exr masked/b/3.exr
+check "a mask that fits some pairs" verdict 2 mask masked/a masked/b --mask mask.png --html masked.html
+check "the others are compared all the same" test "$(grep -cE '"kind": "(mask|differs)"' report.json)" -eq 2
+check "and stand in the page" test "$(grep -o '<section>' masked.html | wc -l)" -eq 3
 check "a folder and a file" refuses 2 "two folders" "$penumbra" diff a ref.exr
 
 # ---- reports
 check "all reports" verdict 1 differs ref.exr one_pixel.exr --heatmap h.png --html report.html
 check "a PNG" test "$(head -c 4 h.png | tail -c 3)" = PNG
+black() { "$penumbra" diff "$1" "$1" --heatmap black.png >stdout && verdict 1 differs black.png "$2" --metrics pixels; }
+"$penumbra" diff parts.exr parts_pixel.exr --heatmap h2.png >stdout
+check "the heat map shows the second part" black parts.exr h2.png
+"$penumbra" diff windows.exr windows_pixel.exr --heatmap h3.png >stdout
+check "where its window is" black windows.exr h3.png
+check "in a map of all windows" grep -qF '"pixels": 648,' report.json
 check "the page holds its pictures" grep -qF 'data:image/png;base64,' report.html
 check "the page loads nothing" test "$(grep -cE '(src|href)="?https?:|url\(|@import' report.html)" -eq 0
 check "the JSON tells the conventions" grep -qF '(test - reference)^2 / (reference^2 + 0.01)' report.json
