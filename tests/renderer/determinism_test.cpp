@@ -2,7 +2,8 @@
 
 #include "apps/renderer/builtin_scene.h"
 #include "tests/renderer/support.h"
-#include "tests/skip.h"
+
+// What else the image does not depend on; threads, tiles and widths: reproducibility_test.cpp.
 
 using namespace penumbra;
 using namespace penumbra::tests;
@@ -17,28 +18,6 @@ const Scene& builtin() {
 }
 
 }  // namespace
-
-TEST_CASE("the image does not depend on the number of threads") {
-    const std::uint64_t expected = digest(render(builtin(), kSmall, {.threads = 1}));
-    for (const int threads : {2, 3, 7})
-        CHECK(digest(render(builtin(), kSmall, {.threads = threads})) == expected);
-}
-
-TEST_CASE("the image does not depend on the order of the tiles") {
-    const std::uint64_t expected = digest(render(builtin(), kSmall));
-    for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        const parallel::TileOrder shuffled{.kind = parallel::TileOrder::Kind::kShuffled,
-                                           .seed = seed};
-        CHECK(digest(render(builtin(), kSmall, {.threads = 2, .tile_order = shuffled})) ==
-              expected);
-    }
-}
-
-TEST_CASE("the image does not depend on the vector width") {
-    if (!simd::is_supported(simd::Isa::kAvx512)) return report_skip("no AVX-512 on this machine");
-    CHECK(digest(render(builtin(), kSmall, {.isa = simd::Isa::kAvx2})) ==
-          digest(render(builtin(), kSmall, {.isa = simd::Isa::kAvx512})));
-}
 
 TEST_CASE("a frame does not depend on the frames rendered before it") {
     const std::uint64_t expected = digest(render(builtin(), kSmall, {}, 30));
