@@ -11,14 +11,6 @@
 namespace penumbra::bench {
 namespace {
 
-// Between the sorted values, linearly: position 0 is the lowest, 1 the highest.
-double quantile(const std::vector<double>& sorted, double position) {
-    const double place = position * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
-
 template <class Get>
 std::vector<double> each(const PassResult& pass, const Get& get) {
     std::vector<double> values;
@@ -55,6 +47,13 @@ std::string name(LimitKind kind) {
             return "sum";
     }
     return "";
+}
+
+double quantile(const std::vector<double>& sorted, double position) {
+    const double place = position * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
 Summary summarize(std::vector<double> values) {

@@ -101,6 +101,9 @@ struct Report {
 
 // ---- derived
 
+// Between the sorted values, linearly: position 0 is the lowest, 1 the highest.
+[[nodiscard]] double quantile(const std::vector<double>& sorted, double position);
+
 // Of any samples; the spread is the distance between the quartiles (linear interpolation).
 struct Summary {
     double median = 0, lower_quartile = 0, upper_quartile = 0;
