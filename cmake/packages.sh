@@ -8,7 +8,7 @@ PENUMBRA_BUILD_PACKAGES=(
     libdeflate-dev
 )
 PENUMBRA_TEST_PACKAGES=(
-    doctest-dev libbenchmark-dev glmark2-data clang-format clang-tidy
+    doctest-dev libbenchmark-dev libbenchmark-tools glmark2-data clang-format clang-tidy
     python3 chromium chromium-driver zsh groff-base
 )
 

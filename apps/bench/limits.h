@@ -49,8 +49,18 @@ class Limits {
   private:
     LoopTime primary(shadow::RayCall call);
     LoopTime shadow(shadow::RayCall call);
-    LoopTime stream(Triad& triad, StreamStores stores, const char* name);
-    LoopTime arithmetic(std::uint64_t count, const char* name);
+    // A loop that is over in no time is run several times, until it can be measured.
+    struct Stream {
+        explicit Stream(std::uint64_t bytes) : triad(bytes) {}
+        Triad triad;
+        int rounds = 1;
+    };
+    struct Arithmetic {
+        std::uint64_t multiply_adds;
+        int rounds = 1;
+    };
+    LoopTime stream(Stream& loop, StreamStores stores, const char* name);
+    LoopTime arithmetic(const Arithmetic& loop, const char* name);
 
     const Workload& work_;
     const shadow::BareRays& bare_;
@@ -59,7 +69,8 @@ class Limits {
     profile::Profile& profile_;
     Demands demands_;
     std::vector<shadow::RayCallScratch> scratch_;  // one per worker
-    Triad setup_, deposit_, noise_, filter_;
+    Stream setup_, deposit_, noise_, filter_;
+    Arithmetic shade_, rays_;
     shadow::RayCall primary_call_ = shadow::RayCall::kSingle;
     shadow::RayCall shadow_call_ = shadow::RayCall::kSingle;
     StreamStores stores_ = StreamStores::kThroughCaches;

@@ -103,8 +103,7 @@ class SceneBench {
             repeat(i, renderer, limits, profile, run);
         }
         if (run.counters) divide(settings_.repetitions, *run.counters);
-        if (recording)
-            append(profile, fmt::format("{}, {} threads", result_.name, threads), *recording);
+        if (recording) append(profile, run_name(threads), *recording);
         result_.runs.push_back(std::move(run));
     }
 
@@ -157,10 +156,12 @@ class SceneBench {
         result_.covered_pixels = workload_->covered_pixels;
     }
 
+    [[nodiscard]] std::string run_name(int threads) const {
+        return fmt::format("{}, {} thread{}", result_.name, threads, threads == 1 ? "" : "s");
+    }
+
     void tell(int threads, const std::string& what) const {
-        if (listener_)
-            listener_(fmt::format("{}, {} thread{}: {}", result_.name, threads,
-                                  threads == 1 ? "" : "s", what));
+        if (listener_) listener_(run_name(threads) + ": " + what);
     }
 
     const BenchSettings& settings_;

@@ -1,0 +1,108 @@
+#include <doctest/doctest.h>
+
+#include "apps/bench/limits.h"
+#include "apps/bench/machine.h"
+#include "apps/renderer/builtin_scene.h"
+#include "shadow/bare_rays.h"
+
+using namespace penumbra;
+using namespace penumbra::bench;
+
+namespace {
+
+constexpr renderer::ImageSettings kImage{.width = 200, .height = 120};
+
+const Scene& scene() {
+    static const Scene kScene = renderer::read_builtin_scene();
+    return kScene;
+}
+
+std::uint64_t count(const std::vector<shadow::RayBatch>& batches) {
+    std::uint64_t rays = 0;
+    for (const shadow::RayBatch& batch : batches) rays += static_cast<std::uint64_t>(batch.count);
+    return rays;
+}
+
+}  // namespace
+
+TEST_CASE("the kept shadow rays are those that the renderer counts") {
+    const Workload work = record_workload(scene(), kImage, {.threads = 2}, 1);
+    renderer::Renderer renderer(scene(), kImage, {.threads = 1});
+    renderer::Film film;
+    const renderer::FrameStatistics frame = renderer.render(1, {renderer::Aov::kBeauty}, film);
+    CHECK(work.shadow_rays == frame.shadow_rays);
+    CHECK(count(work.shadow) == frame.shadow_rays);
+    CHECK(work.shadow_scale == 1);
+    CHECK(work.triangles == frame.triangles);
+}
+
+TEST_CASE("there is one primary ray per pixel of the picture") {
+    CHECK(count(record_workload(scene(), kImage, {.threads = 2}, 1).primary) == 200 * 120);
+}
+
+TEST_CASE("where rays would fill the memory a part of them stands for all") {
+    const Workload all = record_workload(scene(), kImage, {.threads = 2}, 1);
+    const Workload some = record_workload(scene(), kImage, {.threads = 2}, 1, 1 << 20);
+    CHECK(some.shadow_rays == all.shadow_rays);
+    CHECK(count(some.shadow) < all.shadow_rays);
+    CHECK(some.shadow_scale * static_cast<double>(count(some.shadow)) ==
+          doctest::Approx(static_cast<double>(all.shadow_rays)));
+}
+
+TEST_CASE("all calls of the bare ray tracer find the same") {
+    const parallel::Arena arena(2);
+    const Workload work = record_workload(scene(), kImage, {.threads = 2}, 1);
+    const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
+    shadow::RayCallScratch scratch;
+    int covered = 0;
+    for (const shadow::RayBatch& batch : work.primary)
+        covered += bare.intersect(batch, shadow::RayCall::kSingle);
+    CHECK(static_cast<double>(covered) ==
+          doctest::Approx(static_cast<double>(work.covered_pixels)).epsilon(0.02));
+    for (const shadow::RayBatch& batch : work.shadow) {
+        const int expected = bare.occlude(batch, shadow::RayCall::kSingle, scratch);
+        CHECK(expected <= batch.count);
+        for (const shadow::RayCall call : shadow::occlude_calls())
+            CHECK(bare.occlude(batch, call, scratch) == doctest::Approx(expected).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("demands grow with pixels, rays and triangles") {
+    const Workload small = record_workload(scene(), {.width = 64, .height = 64}, {}, 1);
+    const Workload large = record_workload(scene(), {.width = 128, .height = 128}, {}, 1);
+    CHECK(demands(large).filter_bytes == 4 * demands(small).filter_bytes);
+    CHECK(demands(large).setup_bytes == demands(small).setup_bytes);
+    CHECK(demands(large).rays_multiply_adds > 3 * demands(small).rays_multiply_adds);
+    CHECK(demands(small).noise_bytes == 64 * 64 * 40);
+}
+
+TEST_CASE("every limit takes time, whatever the number of threads") {
+    const Workload work = record_workload(scene(), kImage, {.threads = 2}, 1);
+    profile::Profile profile;
+    parallel::Arena arena(3);
+    arena.record(&profile);
+    const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
+    Limits limits(work, bare, simd::best_isa(), arena, profile);
+    const Limits::Measured m = limits.measure();
+    for (const LoopTime& time :
+         {m.primary_rays, m.shadow_rays, m.shade, m.rays, m.setup, m.deposit, m.noise, m.filter}) {
+        CHECK(time.wall_milliseconds > 0);
+        CHECK(time.thread_milliseconds > 0);
+    }
+}
+
+TEST_CASE("a sweep doubles the threads up to what there is, which it includes") {
+    CHECK(thread_sweep(1) == std::vector<int>{1});
+    CHECK(thread_sweep(2) == std::vector<int>{1, 2});
+    CHECK(thread_sweep(6) == std::vector<int>{1, 2, 4, 6});
+    CHECK(thread_sweep(8) == std::vector<int>{1, 2, 4, 8});
+}
+
+TEST_CASE("the machine is described") {
+    const Machine machine = describe_machine(simd::Isa::kAvx2, shadow::TraceIsa::kAvx512);
+    CHECK(machine.kernel_isa == "avx2");
+    CHECK(machine.trace_isa == "avx512");
+    CHECK(machine.processors >= 1);
+    CHECK_FALSE(machine.software.empty());
+    CHECK(machine.date.size() == 25);
+}
