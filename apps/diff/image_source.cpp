@@ -8,11 +8,13 @@
 #include "core/error.h"
 #include "core/image/decode.h"
 #include "core/image/exr_blocks.h"
+#include "core/image/file_reader.h"
+#include "core/image/radiance.h"
 
 namespace penumbra::diff {
 namespace {
 
-// PNG, JPEG and HDR: decoded whole.
+// PNG and JPEG: decoded whole.
 class DecodedSource : public ImageSource {
   public:
     explicit DecodedSource(image::DecodedImage image) : image_(std::move(image)) {
@@ -37,6 +39,31 @@ class DecodedSource : public ImageSource {
 
   private:
     image::DecodedImage image_;
+};
+
+// Radiance HDR: rows are decoded as they are asked for.
+class RadianceSource : public ImageSource {
+  public:
+    explicit RadianceSource(const std::filesystem::path& file) : file_(file), rows_(file_) {
+        SourcePart part;
+        part.display = part.data = {0, 0, rows_.width(), rows_.height()};
+        for (const char* name : {"R", "G", "B"}) part.channels.push_back({name, "float"});
+        parts_.push_back(std::move(part));
+    }
+    int lines_per_block(int) const override { return 1; }
+    void read(int, int first, int end, const std::vector<ChannelRows>& rows, int) override {
+        rows_.read(first, end, [&](int y, std::span<const float> rgb) {
+            for (const ChannelRows& row : rows) {
+                auto from = static_cast<std::size_t>(row.channel);
+                for (int x = 0; x < rows_.width(); ++x, from += 3)
+                    row.floats.at(x, y - first) = rgb[from];
+            }
+        });
+    }
+
+  private:
+    image::FileReader file_;
+    image::RadianceRows rows_;
 };
 
 class ExrSource : public ImageSource {
@@ -73,17 +100,20 @@ class ExrSource : public ImageSource {
     std::vector<std::optional<image::ExrBlocks>> readers_;
 };
 
-enum class Format { kUnknown, kExr, kOther };
+enum class Format { kUnknown, kExr, kRadiance, kOther };
 
 // By the first bytes: a file that begins like an image but cannot be read is damaged, any other is
 // no image.
 Format detect(const std::filesystem::path& file) {
-    std::array<char, 4> head{};
+    std::array<char, 10> head{};
     std::ifstream stream(file, std::ios::binary);
     stream.read(head.data(), head.size());
     const std::string_view begin(head.data(), static_cast<std::size_t>(stream.gcount()));
-    if (begin == "\x76\x2f\x31\x01") return Format::kExr;
-    if (begin == "\x89PNG" || begin.starts_with("\xff\xd8\xff") || begin.starts_with("#?"))
+    if (begin.starts_with("\x76\x2f\x31\x01")) return Format::kExr;
+    if (image::is_radiance({reinterpret_cast<const std::uint8_t*>(begin.data()), begin.size()}))
+        return Format::kRadiance;
+    if (begin.starts_with("\x89PNG") || begin.starts_with("\xff\xd8\xff") ||
+        begin.starts_with("#?"))
         return Format::kOther;
     return Format::kUnknown;
 }
@@ -138,6 +168,7 @@ std::unique_ptr<ImageSource> open_image(const std::filesystem::path& file, int w
     const Format format = detect(file);
     try {
         if (format == Format::kExr) return open_exr(file, workers, failures);
+        if (format == Format::kRadiance) return std::make_unique<RadianceSource>(file);
         return std::make_unique<DecodedSource>(image::decode_image(file));
     } catch (const InputError& error) {
         const bool is_image = format != Format::kUnknown;
