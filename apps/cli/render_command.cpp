@@ -85,7 +85,8 @@ int render(RenderOptions& options) {
     interpret(options);
     const Scene scene =
         options.scene.empty() ? renderer::read_builtin_scene() : read_scene(options.scene);
-    for (const std::string& warning : scene.warnings) say(stderr, "warning: {}\n", one_line(warning));
+    for (const std::string& warning : scene.warnings)
+        say(stderr, "warning: {}\n", one_line(warning));
     const std::vector<int> frames = frames_of(options, scene);
     if (options.output.pattern.empty())
         options.output.pattern = default_pattern(options, frames.size());
