@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `penumbra check` notices a renderer that is broken, in the goldens and at their thresholds, and names what fails as a
+# `penumbra check` notices a renderer that is broken, in the goldens and at their thresholds, and what fails is a
 # difference. Usage: broken_test.sh PENUMBRA BROKEN_PENUMBRA...
 source "$(dirname "${BASH_SOURCE[0]}")/../cli/harness.sh"
 broken=()
@@ -9,7 +9,7 @@ cd "$source_dir" || exit 1
 # is_caught PROGRAM: the check fails because pictures differ, not because rendering failed.
 is_caught() {
     local status=0
-    "$penumbra" check data/goldens --renderer "$1" >"$work/out" 2>&1 || status=$?
+    "$penumbra" check data/goldens --reproducible --renderer "$1" >"$work/out" 2>&1 || status=$?
     if [ "$status" -ne 1 ] || ! grep -q '^failed ' "$work/out" ||
         grep -qE '^(error|missing|unfit)' "$work/out"; then
         echo "  $(basename "$1"): exit code $status"
