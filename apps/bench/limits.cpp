@@ -56,7 +56,37 @@ Candidate quickest(const std::vector<Candidate>& candidates, const Time& time) {
     return best;
 }
 
+std::string text(StreamStores stores) {
+    return stores == StreamStores::kAroundCaches ? "around the caches" : "through the caches";
+}
+std::string text(shadow::RayCall call) {
+    return shadow::name(call);
+}
+
+// The one of `candidates` with that name, else the quickest.
+template <class Candidate, class Time>
+Candidate choose(const std::vector<Candidate>& candidates, const std::string& name,
+                 const Time& time) {
+    for (const Candidate candidate : candidates)
+        if (text(candidate) == name) return candidate;
+    return quickest(candidates, time);
+}
+
 }  // namespace
+
+LimitCalls limit_calls(const Report& report, const std::string& scene, int threads) {
+    LimitCalls calls;
+    for (const SceneResult& result : report.scenes)
+        for (const ThreadRun& run : result.runs) {
+            if (result.name != scene || run.threads != threads) continue;
+            for (const PassResult& pass : run.passes) {
+                if (pass.limit == LimitKind::kPrimaryRays) calls.primary = pass.limit_call;
+                if (pass.limit == LimitKind::kShadowRays) calls.shadow = pass.limit_call;
+                if (pass.limit == LimitKind::kStream) calls.stream = pass.limit_call;
+            }
+        }
+    return calls;
+}
 
 Demands demands(const Workload& work) {
     constexpr std::uint64_t kFloat = 4;
@@ -83,11 +113,12 @@ Demands demands(const Workload& work) {
             .rays_multiply_adds = kPerRay * work.shadow_rays};
 }
 
-Limits::Limits(const Workload& workload, const shadow::BareRays& bare, simd::Isa isa,
-               const parallel::Arena& arena, profile::Profile& profile)
+Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
+               const LimitSettings& settings, const parallel::Arena& arena,
+               profile::Profile& profile)
     : work_(workload),
       bare_(bare),
-      isa_(isa),
+      isa_(settings.isa),
       arena_(arena),
       profile_(profile),
       demands_(demands(workload)),
@@ -99,10 +130,12 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare, simd::Isa
       shade_{demands_.shade_multiply_adds},
       rays_{demands_.rays_multiply_adds} {
     using Stores = StreamStores;
-    primary_call_ = quickest(shadow::intersect_calls(), [&](auto c) { return primary(c); });
-    shadow_call_ = quickest(shadow::occlude_calls(), [&](auto c) { return shadow(c); });
-    stores_ = quickest(std::vector<Stores>{Stores::kThroughCaches, Stores::kAroundCaches},
-                       [&](Stores s) { return stream(filter_, s, "stream"); });
+    const LimitCalls& calls = settings.calls;
+    primary_call_ =
+        choose(shadow::intersect_calls(), calls.primary, [&](auto c) { return primary(c); });
+    shadow_call_ = choose(shadow::occlude_calls(), calls.shadow, [&](auto c) { return shadow(c); });
+    stores_ = choose(std::vector<Stores>{Stores::kThroughCaches, Stores::kAroundCaches},
+                     calls.stream, [&](Stores s) { return stream(filter_, s, "stream"); });
     // The first time is the first touch of the memory.
     static_cast<void>(measure());
     const Measured once = measure();
@@ -153,7 +186,7 @@ Limits::Measured Limits::measure() {
 }
 
 std::string Limits::stream_call() const {
-    return stores_ == StreamStores::kAroundCaches ? "around the caches" : "through the caches";
+    return text(stores_);
 }
 
 }  // namespace penumbra::bench

@@ -26,6 +26,20 @@ struct Demands {
 };
 [[nodiscard]] Demands demands(const Workload& work);
 
+// How rays and bytes are handed over, by name ("stream", "around the caches"); of those that are
+// empty or unknown here the quickest is looked for. Launches that are compared must not differ in
+// what their limits mean.
+struct LimitCalls {
+    std::string primary, shadow, stream;
+};
+// Those of a report, where it has that scene and number of threads.
+[[nodiscard]] LimitCalls limit_calls(const Report& report, const std::string& scene, int threads);
+
+struct LimitSettings {
+    simd::Isa isa;
+    LimitCalls calls;
+};
+
 class Limits {
   public:
     struct Measured {
@@ -33,8 +47,8 @@ class Limits {
     };
 
     // `workload`, `bare`, `arena` and `profile`, which the arena records to, must outlive it. Finds
-    // the quickest call for each by trying all.
-    Limits(const Workload& workload, const shadow::BareRays& bare, simd::Isa isa,
+    // the quickest call for each by trying all, unless the settings name it.
+    Limits(const Workload& workload, const shadow::BareRays& bare, const LimitSettings& settings,
            const parallel::Arena& arena, profile::Profile& profile);
 
     // All of them once.

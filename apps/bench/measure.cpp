@@ -92,9 +92,11 @@ class SceneBench {
         parallel::Arena arena(threads);
         prepare_limits(arena);
         arena.record(&profile);
-        const simd::Isa isa = execution.isa.value_or(simd::best_isa());
+        LimitSettings limit_settings{.isa = execution.isa.value_or(simd::best_isa())};
+        if (settings_.calls_of)
+            limit_settings.calls = limit_calls(*settings_.calls_of, result_.name, threads);
         tell(threads, "looking for the quickest calls");
-        Limits limits(*workload_, *bare_, isa, arena, profile);
+        Limits limits(*workload_, *bare_, limit_settings, arena, profile);
         ThreadRun run = empty_run(threads, *workload_, limits);
         for (int i = 0; i < settings_.repetitions; ++i) {
             if (cancelled_) return;

@@ -22,6 +22,7 @@ struct BenchSettings {
     std::vector<int> threads;               // one run each
     int warmups = 2;
     int repetitions = 11;
+    const Report* calls_of = nullptr;  // whose limits' calls are taken, if any
 };
 
 // The last repetition of each run, one after the other, as slices for a trace.

@@ -82,7 +82,7 @@ TEST_CASE("every limit takes time, whatever the number of threads") {
     parallel::Arena arena(3);
     arena.record(&profile);
     const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
-    Limits limits(work, bare, simd::best_isa(), arena, profile);
+    Limits limits(work, bare, {.isa = simd::best_isa()}, arena, profile);
     const Limits::Measured m = limits.measure();
     for (const LoopTime& time :
          {m.primary_rays, m.shadow_rays, m.shade, m.rays, m.setup, m.deposit, m.noise, m.filter}) {
