@@ -144,11 +144,7 @@ int occlude_singles(RTCScene scene, const RayBatch& b) {
 void resize(std::size_t count, RayCallScratch& s) {
     if (s.near_limit.size() >= count) return;
     s.near_limit.assign(count, 0.0f);
-    s.time.assign(count, 0.0f);
     s.far_limit.resize(count);
-    s.mask.assign(count, ~0u);
-    s.id.assign(count, 0u);
-    s.flags.assign(count, 0u);
 }
 
 int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch& s) {
@@ -164,11 +160,7 @@ int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch& s) {
                   .dir_x = pointer(b.direction_x),
                   .dir_y = pointer(b.direction_y),
                   .dir_z = pointer(b.direction_z),
-                  .time = s.time.data(),
-                  .tfar = s.far_limit.data(),
-                  .mask = s.mask.data(),
-                  .id = s.id.data(),
-                  .flags = s.flags.data()};
+                  .tfar = s.far_limit.data()};
     rtcOccludedNp(scene, &context, &rays, static_cast<unsigned>(b.count));
     return static_cast<int>(
         std::count_if(s.far_limit.begin(), s.far_limit.begin() + b.count, is_blocked));

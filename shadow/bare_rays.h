@@ -34,8 +34,7 @@ struct RayBatch {
 
 // One worker's memory.
 struct RayCallScratch {
-    std::vector<float> near_limit, time, far_limit;
-    std::vector<unsigned> mask, id, flags;
+    std::vector<float> near_limit, far_limit;
 };
 
 // All triangles of a scene in world space: robust mode, medium quality, as the occluders.
