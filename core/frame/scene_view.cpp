@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/math/portable.h"
 #include "core/parallel/arena.h"
 #include "core/scene/camera_check.h"
 #include "core/scene/light_polygon.h"
@@ -216,7 +217,7 @@ Camera evaluate_camera(const Scene& scene, double time, FilmSize film, double di
             .right = narrow(right),
             .up = narrow(cross(right, forward)),
             .forward = narrow(forward),
-            .focal = static_cast<float>(0.5 * film.height / std::tan(half_angle)),
+            .focal = static_cast<float>(0.5 * film.height / portable::tan(half_angle)),
             .center_x = 0.5f * static_cast<float>(film.width),
             .center_y = 0.5f * static_cast<float>(film.height),
             .near_distance = tracks.near_distance.value_or(static_cast<float>(

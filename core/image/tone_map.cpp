@@ -2,6 +2,7 @@
 
 #include "core/image/png.h"
 #include "core/image/srgb.h"
+#include "core/math/elementary.h"
 
 namespace penumbra::image {
 namespace {
@@ -22,7 +23,7 @@ Picture tone_map(const PlaneView3<const float>& rgb, int width, int height,
                  const ToneMapping& mapping) {
     Picture picture{width, height, 3, {}};
     picture.bytes.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-    const float gain = std::exp2(mapping.exposure_ev);
+    const float gain = exp2(mapping.exposure_ev);
     std::uint8_t* to = picture.bytes.data();
     for (int y = 0; y < height; ++y) {
         const float* row[] = {rgb[0].row(y), rgb[1].row(y), rgb[2].row(y)};

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/math/portable.h"
+
 namespace penumbra {
 namespace {
 
@@ -64,7 +66,7 @@ CameraTracks framing_camera(const Scene& scene) {
     const Vec3d backward = normalize(Vec3d{0.6, 0.4, 1});
     const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward));
     const Vec3d up = cross(backward, right);
-    const double half_height = std::tan(kFieldOfView * (std::numbers::pi / 360));
+    const double half_height = portable::tan(kFieldOfView * (std::numbers::pi / 360));
     const double half_width = half_height * scene.width / scene.height;
     // The least distance at which each corner lies within the four sides of the view.
     double distance = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/math/portable.h"
 
 namespace penumbra {
 namespace {
@@ -52,7 +53,7 @@ std::optional<std::string> polygon_problem(std::span<const Vec3d> vertices) {
         const double turn = dot(cross(in, out), normal);
         if (turn < -kPlanarTolerance * extent * std::max(length(in), length(out)))
             return fmt::format("the polygon is not convex at vertex {}", i);
-        turned += std::atan2(turn, dot(in, out));
+        turned += portable::atan2(turn, dot(in, out));
     }
     // A star turns left at every corner too, but more than once around.
     if (turned > 7) return "the polygon crosses itself";

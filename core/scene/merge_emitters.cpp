@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "core/math/portable.h"
 #include "core/scene/light_polygon.h"
 #include "core/scene/polygon_soup.h"
 
@@ -155,7 +156,7 @@ class Merger {
             const Vec3d here = position(loop[i]);
             const Vec3d in = here - position(loop[(i + loop.size() - 1) % loop.size()]);
             const Vec3d out = position(loop[(i + 1) % loop.size()]) - here;
-            const double turn = std::atan2(length(cross(in, out)), dot(in, out));
+            const double turn = portable::atan2(length(cross(in, out)), dot(in, out));
             if (turn > kStraightTolerance) corners.push_back(loop[i]);
         }
         return corners;
@@ -172,7 +173,7 @@ class Merger {
             const Vec3d out = points[(i + 1) % points.size()] - points[i];
             const double sine = dot(cross(in, out), normal);
             if (!(sine > 0)) return false;
-            turned += std::atan2(length(cross(in, out)), dot(in, out));
+            turned += portable::atan2(length(cross(in, out)), dot(in, out));
         }
         return turned < 7;  // 2 pi; a star turns further
     }

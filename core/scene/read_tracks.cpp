@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/math/portable.h"
 
 namespace penumbra {
 namespace {
@@ -26,7 +27,7 @@ struct Rotation {
 double widest_turn(const Rotation& a, const Rotation& b) {
     const Vec3f d = b.degrees - a.degrees;
     const double between =
-        std::acos(std::min(1.0, std::fabs(glm::dot(a.quaternion, b.quaternion)))) * 360 /
+        portable::acos(std::min(1.0, std::fabs(glm::dot(a.quaternion, b.quaternion)))) * 360 /
         std::numbers::pi;
     return std::max(
         {double{std::fabs(d.x)}, double{std::fabs(d.y)}, double{std::fabs(d.z)}, between});

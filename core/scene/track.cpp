@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/math/portable.h"
 
 namespace penumbra {
 namespace {
@@ -18,8 +19,19 @@ float mix(float a, float b, double t) {
 Vec3f mix(const Vec3f& a, const Vec3f& b, double t) {
     return {mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)};
 }
+// Along the shorter arc. Shoemake, "Animating Rotation with Quaternion Curves" (1985).
+glm::dquat between(const glm::dquat& a, const glm::dquat& b, double t) {
+    constexpr double kNearlyParallel = 1 - 1e-12;  // there sines lose their digits, lines do not
+    const double cosine = glm::dot(a, b);
+    const double sign = cosine < 0 ? -1 : 1;
+    const double angle = portable::acos(sign * cosine);
+    const bool is_line = sign * cosine > kNearlyParallel;
+    const double from = is_line ? 1 - t : portable::sin((1 - t) * angle);
+    const double to = is_line ? t : portable::sin(t * angle);
+    return glm::normalize(a * from + b * (sign * to));
+}
 glm::dquat mix(const glm::dquat& a, const glm::dquat& b, double t) {
-    return glm::normalize(glm::slerp(a, b, t));  // glm's slerp takes the shorter arc
+    return between(a, b, t);
 }
 
 template <class T>
@@ -72,7 +84,7 @@ Affine3f evaluate(const TransformTrack& track, double time) {
 glm::dquat rotation_from_degrees(const Vec3d& degrees) {
     const auto about = [](double angle, const glm::dvec3& axis) {
         const double half = angle * (std::numbers::pi / 360);
-        return glm::dquat(std::cos(half), axis * std::sin(half));
+        return glm::dquat(portable::cos(half), axis * portable::sin(half));
     };
     return about(degrees.z, {0, 0, 1}) * about(degrees.y, {0, 1, 0}) * about(degrees.x, {1, 0, 0});
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/math/portable.h"
 #include "core/scene/polygon_soup.h"
 
 namespace penumbra {
@@ -68,7 +69,7 @@ class Fan {
                            .next = welded[there],
                            .previous = welded[behind],
                            .normal = n * (1 / size),
-                           .angle = std::atan2(size, plain_dot(a, b)),
+                           .angle = portable::atan2(size, plain_dot(a, b)),
                            .group = index});
         spokes_.push_back({welded[there], index});
         spokes_.push_back({welded[behind], index});
@@ -115,7 +116,7 @@ class Fan {
     }
 
     void join_if_smooth(Index a, Index b) {
-        static const double kLeastCosine = std::cos(kCreaseDegrees * (std::numbers::pi / 180));
+        static const double kLeastCosine = portable::cos(kCreaseDegrees * (std::numbers::pi / 180));
         if (plain_dot(wedges_[a].normal, wedges_[b].normal) <= kLeastCosine) return;
         const Index group_a = root(a);
         const Index group_b = root(b);
