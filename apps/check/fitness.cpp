@@ -5,97 +5,131 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
+#include <optional>
+#include <vector>
 
-#include "core/image/exr.h"
+#include "apps/diff/image_source.h"
+#include "core/error.h"
 
 namespace penumbra::check {
 namespace {
 
-using image::ExrPlane;
-using image::ExrType;
+// What is known of a channel from the rows so far.
+class Channel {
+  public:
+    explicit Channel(const diff::SourceChannel& info) : info_(info) {}
 
-// Calls body(bits, value) for each value of a plane; ids are their own bits and a finite value.
-template <class Body>
-void for_each_value(const ExrPlane& plane, const image::Window& window, const Body& body) {
-    for (int y = 0; y < window.height(); ++y)
-        for (int x = 0; x < window.width(); ++x) {
-            if (plane.type == ExrType::kUint) {
-                const std::uint32_t id = plane.ids.row(y)[x];
-                body(id, static_cast<float>(id));
-            } else {
-                const float value = plane.floats.row(y)[x];
-                body(std::bit_cast<std::uint32_t>(value), value);
-            }
+    void add(const float* values, int count) {
+        std::string bytes;
+        for (int x = 0; x < count; ++x) {
+            add_value(std::bit_cast<std::uint32_t>(values[x]), values[x] == 0, bytes);
+            if (!std::isfinite(values[x])) ++non_finite_;
         }
-}
+        add_row(bytes);
+    }
+    void add(const std::uint32_t* ids, int count) {
+        std::string bytes;
+        for (int x = 0; x < count; ++x) add_value(ids[x], ids[x] == 0, bytes);
+        add_row(bytes);
+    }
 
-struct PlaneFacts {
-    bool is_zero = true, is_constant = true;
-    std::size_t non_finite = 0;
+    [[nodiscard]] bool is_zero() const { return is_zero_; }
+    [[nodiscard]] bool is_constant() const { return is_constant_; }
+    [[nodiscard]] std::size_t non_finite() const { return non_finite_; }
+    [[nodiscard]] const std::string& name() const { return info_.name; }
+    [[nodiscard]] bool holds_ids() const { return info_.holds_ids(); }
+    // Name, type and values in words.
+    [[nodiscard]] std::string summary() const {
+        return fmt::format("{} {} {}", info_.name, info_.type,
+                           digest_of(rows_, VirtualFiles{}).hex());
+    }
+
+  private:
+    void add_value(std::uint32_t bits, bool is_zero, std::string& bytes) {
+        if (!first_) first_ = bits;
+        is_constant_ = is_constant_ && bits == *first_;
+        is_zero_ = is_zero_ && is_zero;
+        for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 255);
+    }
+    // By rows, so that it does not depend on the blocks in which files are read.
+    void add_row(const std::string& bytes) { rows_ += digest_of(bytes, VirtualFiles{}).hex(); }
+
+    diff::SourceChannel info_;
+    std::optional<std::uint32_t> first_;
+    bool is_zero_ = true, is_constant_ = true;
+    std::size_t non_finite_ = 0;
+    std::string rows_;
 };
 
-PlaneFacts facts_of(const ExrPlane& plane, const image::Window& window) {
-    PlaneFacts facts;
-    bool is_first = true;
-    float first = 0;
-    for_each_value(plane, window, [&](std::uint32_t, float value) {
-        if (is_first) first = value;
-        is_first = false;
-        facts.is_zero = facts.is_zero && value == 0;
-        facts.is_constant = facts.is_constant && value == first;
-        if (!std::isfinite(value)) ++facts.non_finite;
-    });
-    return facts;
+// The rows of a part, a few at a time: memory does not grow with the picture's height.
+void read_part(diff::ImageSource& image, int part, std::vector<Channel>& channels) {
+    const diff::SourcePart& info = image.parts()[static_cast<std::size_t>(part)];
+    const int width = info.data.width(), height = info.data.height();
+    constexpr int kFewestRows = 16;
+    const int band = std::max(kFewestRows, image.lines_per_block(part));
+    std::vector<Plane<float>> floats(channels.size());
+    std::vector<Plane<std::uint32_t>> ids(channels.size());
+    std::vector<diff::ChannelRows> rows(channels.size());
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        rows[i].channel = static_cast<int>(i);
+        if (channels[i].holds_ids())
+            rows[i].ids = (ids[i] = Plane<std::uint32_t>(width, band)).view();
+        else
+            rows[i].floats = (floats[i] = Plane<float>(width, band)).view();
+    }
+    for (int first = 0; first < height; first += band) {
+        const int end = std::min(height, first + band);
+        image.read(part, first, end, rows, 0);
+        for (std::size_t i = 0; i < channels.size(); ++i)
+            for (int y = 0; y < end - first; ++y) {
+                if (channels[i].holds_ids())
+                    channels[i].add(ids[i].row(y), width);
+                else
+                    channels[i].add(floats[i].row(y), width);
+            }
+    }
 }
 
-// The planes of R, G and B, or all.
-std::vector<const ExrPlane*> judged_planes(const image::ExrPixels& pixels) {
-    std::vector<const ExrPlane*> planes;
-    for (const char* const name : {"R", "G", "B"})
-        if (const ExrPlane* plane = pixels.find(name)) planes.push_back(plane);
-    if (planes.empty())
-        for (const ExrPlane& plane : pixels.planes) planes.push_back(&plane);
-    return planes;
-}
-
-std::string problem_of(const image::ExrPixels& pixels) {
+std::string problem_of(const std::vector<Channel>& channels) {
     std::size_t non_finite = 0;
-    for (const ExrPlane& plane : pixels.planes)
-        non_finite += facts_of(plane, pixels.header.data).non_finite;
+    std::vector<const Channel*> judged;
+    for (const Channel& channel : channels) {
+        non_finite += channel.non_finite();
+        if (channel.name() == "R" || channel.name() == "G" || channel.name() == "B")
+            judged.push_back(&channel);
+    }
     if (non_finite > 0)
         return fmt::format("holds {} values that are no finite numbers", non_finite);
-    PlaneFacts all;
-    for (const ExrPlane* plane : judged_planes(pixels)) {
-        const PlaneFacts facts = facts_of(*plane, pixels.header.data);
-        all.is_zero = all.is_zero && facts.is_zero;
-        all.is_constant = all.is_constant && facts.is_constant;
-    }
-    if (all.is_zero) return "is black";
-    return all.is_constant ? "has one colour everywhere" : "";
-}
-
-Digest digest_of_pixels(const image::ExrPixels& pixels) {
-    const image::Window& window = pixels.header.data;
-    std::string text = fmt::format("{} x {}", window.width(), window.height());
-    for (const ExrPlane& plane : pixels.planes) {
-        std::string bytes;
-        bytes.reserve(static_cast<std::size_t>(window.width()) * window.height() * 4);
-        for_each_value(plane, window, [&](std::uint32_t bits, float) {
-            for (int shift = 0; shift < 32; shift += 8)
-                bytes += static_cast<char>(bits >> shift & 255);
-        });
-        text += fmt::format(", {} {} {}", plane.name, image::name(plane.type),
-                            digest_of(bytes, VirtualFiles{}).hex());
-    }
-    return digest_of(text, VirtualFiles{});
+    if (judged.empty())
+        for (const Channel& channel : channels) judged.push_back(&channel);
+    const auto all = [&](bool (Channel::*holds)() const) {
+        return std::all_of(judged.begin(), judged.end(),
+                           [&](const Channel* channel) { return (channel->*holds)(); });
+    };
+    if (all(&Channel::is_zero)) return "is black";
+    return all(&Channel::is_constant) ? "has one colour everywhere" : "";
 }
 
 }  // namespace
 
 Fitness judge_picture(const std::filesystem::path& exr_file) {
-    const image::ExrPixels pixels = image::read_exr(exr_file);
-    return {digest_of_pixels(pixels), problem_of(pixels)};
+    std::vector<diff::Failure> failures;
+    const auto image = diff::open_image(exr_file, 1, failures);
+    if (!image) throw InputError(exr_file, failures.empty() ? "" : failures.front().message);
+    std::vector<Channel> all;
+    std::string text;
+    for (std::size_t part = 0; part < image->parts().size(); ++part) {
+        const diff::SourcePart& info = image->parts()[part];
+        std::vector<Channel> channels;
+        for (const diff::SourceChannel& channel : info.channels) channels.emplace_back(channel);
+        read_part(*image, static_cast<int>(part), channels);
+        text += fmt::format("{} {} x {}: ", info.name, info.data.width(), info.data.height());
+        for (Channel& channel : channels) {
+            text += channel.summary() + ", ";
+            all.push_back(std::move(channel));
+        }
+    }
+    return {digest_of(text, VirtualFiles{}), problem_of(all)};
 }
 
 }  // namespace penumbra::check

@@ -15,7 +15,8 @@ struct Fitness {
 
 // A golden that is black or one colour would let a renderer pass that draws nothing; one with
 // values that are no finite numbers can never be matched. Judged by R, G and B where the file has
-// them, else by all channels. Throws InputError where the file is no readable EXR.
+// them, else by all channels. Read in bands of rows. Throws InputError where the file cannot be
+// read.
 [[nodiscard]] Fitness judge_picture(const std::filesystem::path& exr_file);
 
 }  // namespace penumbra::check

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "apps/diff/html_parts.h"
+#include "apps/diff/image_source.h"
 #include "core/error.h"
-#include "core/image/exr.h"
 #include "core/image/png.h"
 
 namespace penumbra::check {
@@ -13,23 +19,42 @@ namespace {
 // Wider pictures are reduced: they only say what the scene is.
 constexpr int kWidestPicture = 640;
 
-// The beauty as a picture; nothing where a file has none.
+// Places of R, G and B among a part's channels; nothing where it has no such picture.
+std::optional<std::array<int, 3>> find_colours(const diff::SourcePart& part) {
+    constexpr std::string_view kNames[] = {"R", "G", "B"};
+    std::array<int, 3> places{-1, -1, -1};
+    for (std::size_t i = 0; i < part.channels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (part.channels[i].name == kNames[c] && !part.channels[i].holds_ids())
+                places[c] = static_cast<int>(i);
+    if (std::find(places.begin(), places.end(), -1) != places.end()) return std::nullopt;
+    return places;
+}
+
+// The beauty as a picture, every step-th pixel of it, where the file has one.
 std::optional<image::Picture> picture_of(const std::filesystem::path& file) {
-    const image::ExrPixels pixels = image::read_exr(file);
-    const image::ExrPlane* const rgb[3] = {pixels.find("R"), pixels.find("G"), pixels.find("B")};
-    for (const image::ExrPlane* plane : rgb)
-        if (plane == nullptr || plane->type == image::ExrType::kUint) return std::nullopt;
-    const int width = pixels.header.data.width(), height = pixels.header.data.height();
+    std::vector<diff::Failure> failures;
+    const auto image = diff::open_image(file, 1, failures);
+    if (!image) throw InputError(file, failures.empty() ? "" : failures.front().message);
+    const diff::SourcePart& part = image->parts().front();
+    const auto colours = find_colours(part);
+    if (!colours) return std::nullopt;
+    const int width = part.data.width(), height = part.data.height();
     const int step = (width + kWidestPicture - 1) / kWidestPicture;
-    Plane3<float> reduced{Plane<float>(width / step, (height + step - 1) / step), {}, {}};
-    const int w = width / step, h = (height + step - 1) / step;
-    for (std::size_t c = 0; c < 3; ++c) {
-        reduced[c] = Plane<float>(w, h);
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x) reduced[c].at(x, y) = rgb[c]->floats.at(x * step, y * step);
+    const int w = (width + step - 1) / step, h = (height + step - 1) / step;
+    const int band = std::max(16, image->lines_per_block(0));
+    Plane3<float> reduced = make_plane3<float>(w, h), rows = make_plane3<float>(width, band);
+    std::vector<diff::ChannelRows> targets;
+    for (std::size_t c = 0; c < 3; ++c) targets.push_back({(*colours)[c], rows[c].view(), {}});
+    for (int first = 0; first < height; first += band) {
+        const int end = std::min(height, first + band);
+        image->read(0, first, end, targets, 0);
+        for (int y = (first + step - 1) / step; y * step < end; ++y)
+            for (std::size_t c = 0; c < 3; ++c)
+                for (int x = 0; x < w; ++x)
+                    reduced[c].at(x, y) = rows[c].at(x * step, y * step - first);
     }
-    return image::tone_map({reduced[0].view(), reduced[1].view(), reduced[2].view()}, w, h,
-                           {.curve = image::ToneCurve::kClip});
+    return image::tone_map(view(std::as_const(reduced)), w, h, {.curve = image::ToneCurve::kClip});
 }
 
 std::string single_picture(const FrameOutcome& frame) {

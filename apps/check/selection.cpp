@@ -41,7 +41,7 @@ std::optional<std::string> check_of_golden(std::string_view path) {
 }
 
 std::optional<std::string> check_marked_by(std::string_view path) {
-    const auto name = without(path, kSettingsEnding);
+    auto name = without(path, kSettingsEnding);
     return name ? name : check_of_golden(path);
 }
 

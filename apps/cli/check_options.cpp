@@ -1,5 +1,7 @@
 #include "apps/cli/check_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -166,7 +168,7 @@ check::Invocation invocation_of(const CheckOptions& o, const std::string& progra
     for (const std::string& filter : o.filters)
         invocation.selection.push_back("--filter=" + filter);
     for (const auto& [name, value] : o.render_values)
-        if (!value.empty()) invocation.options.push_back("--" + name + "=" + value);
+        if (!value.empty()) invocation.options.push_back(fmt::format("--{}={}", name, value));
     for (const auto& [name, is_set] : o.render_flags)
         if (is_set) invocation.options.push_back("--" + name);
     if (!o.renderer.empty()) invocation.options.push_back("--renderer=" + o.renderer);

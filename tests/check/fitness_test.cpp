@@ -65,7 +65,11 @@ TEST_CASE("equal pixels have equal digests, whatever else the files hold") {
           digest);
 }
 
-TEST_CASE("what is no picture cannot be judged") {
+TEST_CASE("what is no picture, or not all of one, cannot be judged") {
     const Folder folder;
+    const std::string whole =
+        write_picture(folder / "whole.exr", {{"R", std::vector<float>(999, 0.5f)}});
+    std::filesystem::resize_file(whole, std::filesystem::file_size(whole) - 8);
+    CHECK_THROWS_AS(static_cast<void>(judge_picture(whole)), InputError);
     CHECK_THROWS_AS(static_cast<void>(judge_picture(folder.write("a.exr", "text"))), InputError);
 }
