@@ -12,13 +12,12 @@
 #include <limits>
 #include <vector>
 
+#include "apps/bench/report.h"
+#include "apps/bench/workload.h"
 #include "apps/renderer/renderer.h"
-#include "apps/renderer/tile_scratch.h"
-#include "core/parallel/tiles.h"
+#include "core/profile/stopwatch.h"
 #include "core/scene/read_scene.h"
-#include "raster/resolve.h"
-#include "shadow/draw_lights.h"
-#include "tests/benchmarks/bare_embree.h"
+#include "shadow/bare_rays.h"
 
 using namespace penumbra;
 
@@ -26,105 +25,46 @@ namespace {
 
 constexpr int kWidth = 1920;
 constexpr int kHeight = 1080;
-constexpr int kSquare =
-    4;  // pixels of a tile in squares along a Z curve, as the shadow pass orders them
-
-template <class Body>
-void each_pixel_in_z_order(const Body& body) {
-    constexpr int kSide = kTileSize / kSquare;
-    for (unsigned i = 0; i < kSide * kSide; ++i) {
-        unsigned sx = 0;
-        unsigned sy = 0;
-        for (unsigned bit = 0; bit < 4; ++bit) {
-            sx |= (i >> (2 * bit) & 1u) << bit;
-            sy |= (i >> (2 * bit + 1) & 1u) << bit;
-        }
-        for (int y = 0; y < kSquare; ++y)
-            for (int x = 0; x < kSquare; ++x)
-                body(static_cast<int>(sx) * kSquare + x, static_cast<int>(sy) * kSquare + y);
-    }
-}
-
-benchmarks::RayBatch primary_rays(const Camera& camera, const Tile& tile) {
-    benchmarks::RayBatch batch;
-    each_pixel_in_z_order([&](int x, int y) {
-        if (tile.x0 + x >= kWidth || tile.y0 + y >= kHeight) return;
-        const Vec3f direction = camera.direction(static_cast<float>(tile.x0 + x) + 0.5f,
-                                                 static_cast<float>(tile.y0 + y) + 0.5f);
-        batch.add(camera.eye, direction, std::numeric_limits<float>::infinity());
-    });
-    batch.pad();
-    return batch;
-}
-
-void add_active(const shadow::RayScratch& rays, benchmarks::RayBatch& batch) {
-    each_pixel_in_z_order([&](int x, int y) {
-        if (!(rays.active[static_cast<std::size_t>(y)] >> x & 1u)) return;
-        const auto vector = [&](const Plane3<float>& p) {
-            return Vec3f{p[0].at(x, y), p[1].at(x, y), p[2].at(x, y)};
-        };
-        batch.add(vector(rays.origin), vector(rays.direction), rays.range.at(x, y));
-    });
-}
-
-// Exactly the shadow rays of the frame: the tile passes once more, keeping the rays.
-struct Workload {
-    SceneView view;
-    std::vector<benchmarks::RayBatch> primary, shadow;
-    std::size_t shadow_rays = 0;
-    std::size_t covered_pixels = 0;
-};
-
-void prepare_workload(const Scene& scene, const parallel::Arena& arena, Workload& work) {
-    const FrameContext context{
-        .width = kWidth, .height = kHeight, .frame = 1, .isa = simd::best_isa()};
-    evaluate(scene, times_of_frame(scene.animation, 1), {.width = kWidth, .height = kHeight},
-             work.view);
-    shadow::Occluders occluders(arena, shadow::TraceIsa::kAvx2);
-    occluders.update(work.view);
-    shadow::LightSet lights;
-    shadow::prepare_lights(work.view, lights);
-    raster::Geometry geometry;
-    const parallel::TileGrid grid({.x0 = 0, .y0 = 0, .x1 = kWidth, .y1 = kHeight});
-    raster::prepare(work.view, context, grid.window, arena, geometry);
-    renderer::TileScratch scratch;
-    for (int i = 0; i < grid.count(); ++i) {
-        const Tile tile = grid.tile(i);
-        raster::rasterize(work.view, geometry, tile, context.isa, scratch.raster,
-                          scratch.visibility());
-        raster::resolve(work.view, geometry, context, tile, scratch.visibility(),
-                        scratch.surface());
-        shadow::draw_lights(lights, work.view, context, tile, scratch.surface());
-        const ConstSurfaceView surface = to_const(scratch.surface());
-        shadow::cull_lights(lights, work.view, context, surface, 1.0f / 1024, scratch.lights);
-        benchmarks::RayBatch batch;
-        for (const std::uint32_t light : scratch.lights.kept()) {
-            shadow::generate_rays(
-                {.frame = context,
-                 .tile = tile,
-                 .eye = work.view.camera.eye,
-                 .surface = surface,
-                 .offset_scales = occluders.offset_scales()},
-                {.light = &work.view.lights[light], .light_index = light, .index = 0, .count = 1},
-                scratch.rays);
-            add_active(scratch.rays, batch);
-        }
-        batch.pad();
-        work.shadow_rays += static_cast<std::size_t>(batch.count);
-        work.primary.push_back(primary_rays(work.view.camera, tile));
-        work.shadow.push_back(std::move(batch));
-        each_pixel_in_z_order([&](int x, int y) {
-            if (tile.x0 + x < kWidth && tile.y0 + y < kHeight)
-                work.covered_pixels += surface.depth.at(x, y) < kDepthOfNothing;
-        });
-    }
-}
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(),
-                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
+    return bench::summarize(std::move(values)).median;
 }
+
+// Embree by itself: seconds for all tiles.
+class Bare {
+  public:
+    Bare(const bench::Workload& work, const parallel::Arena& arena)
+        : work_(work),
+          arena_(arena),
+          rays_(work.view, shadow::TraceIsa::kAvx2, arena),
+          scratch_(static_cast<std::size_t>(arena.threads())) {}
+
+    double intersect(shadow::RayCall call) {
+        return seconds(work_.primary, [&](const shadow::RayBatch& batch, std::size_t) {
+            rays_.intersect(batch, call);
+        });
+    }
+    double occlude(shadow::RayCall call) {
+        return seconds(work_.shadow, [&](const shadow::RayBatch& batch, std::size_t worker) {
+            rays_.occlude(batch, call, scratch_[worker]);
+        });
+    }
+
+  private:
+    template <class Body>
+    double seconds(const std::vector<shadow::RayBatch>& batches, const Body& body) {
+        const profile::Stopwatch watch;
+        arena_.for_each(static_cast<int>(batches.size()), [&](int index, int worker) {
+            body(batches[static_cast<std::size_t>(index)], static_cast<std::size_t>(worker));
+        });
+        return watch.seconds();
+    }
+
+    const bench::Workload& work_;
+    const parallel::Arena& arena_;
+    shadow::BareRays rays_;
+    std::vector<shadow::RayCallScratch> scratch_;
+};
 
 struct Samples {
     std::vector<double> g_buffer, shadow, shade, rays, trace, filter, frame, evaluate;
@@ -146,10 +86,10 @@ double tile_share(const renderer::FrameStatistics& s,
 }
 
 template <class Time>
-benchmarks::Call best_call(std::initializer_list<benchmarks::Call> calls, const Time& time) {
-    benchmarks::Call best = *calls.begin();
+shadow::RayCall best_call(const std::vector<shadow::RayCall>& calls, const Time& time) {
+    shadow::RayCall best = calls.front();
     double best_seconds = std::numeric_limits<double>::infinity();
-    for (const benchmarks::Call call : calls) {
+    for (const shadow::RayCall call : calls) {
         const double seconds = median({time(call), time(call), time(call)});
         if (seconds < best_seconds) {
             best_seconds = seconds;
@@ -160,28 +100,24 @@ benchmarks::Call best_call(std::initializer_list<benchmarks::Call> calls, const 
 }
 
 void run(const Scene& scene, int pairs, int threads) {
-    using benchmarks::Call;
     using renderer::Pass;
     const parallel::Arena arena(threads);
-    Workload work;
-    prepare_workload(scene, arena, work);
-    const benchmarks::BareEmbree bare(work.view, "avx2", threads);
-    renderer::Renderer ours(scene, {.width = kWidth, .height = kHeight, .samples_per_pixel = 1},
-                            {.threads = threads});
+    const renderer::ImageSettings image{.width = kWidth, .height = kHeight, .samples_per_pixel = 1};
+    const bench::Workload work = bench::record_workload(scene, image, {.threads = threads}, 1);
+    Bare bare(work, arena);
+    renderer::Renderer ours(scene, image, {.threads = threads});
     renderer::Film film;
     ours.render(1, {renderer::Aov::kBeauty}, film);
 
-    const Call primary_call =
-        best_call({Call::kSingle, Call::kPacket8, Call::kPacket16},
-                  [&](Call c) { return bare.intersect(work.primary, c, arena); });
-    const Call shadow_call =
-        best_call({Call::kSingle, Call::kPacket8, Call::kPacket16, Call::kStream},
-                  [&](Call c) { return bare.occlude(work.shadow, c, arena); });
+    const shadow::RayCall primary_call =
+        best_call(shadow::intersect_calls(), [&](shadow::RayCall c) { return bare.intersect(c); });
+    const shadow::RayCall shadow_call =
+        best_call(shadow::occlude_calls(), [&](shadow::RayCall c) { return bare.occlude(c); });
     Samples all;
     for (int i = 0; i < pairs; ++i) {
         const renderer::FrameStatistics s = ours.render(1, {renderer::Aov::kBeauty}, film);
-        const double primary = bare.intersect(work.primary, primary_call, arena);
-        const double shadow = bare.occlude(work.shadow, shadow_call, arena);
+        const double primary = bare.intersect(primary_call);
+        const double shadow = bare.occlude(shadow_call);
         all.g_buffer.push_back(s.passes[Pass::kSetup] +
                                tile_share(s, {Pass::kRasterize, Pass::kResolve}));
         all.shadow.push_back(tile_share(s, {Pass::kShade, Pass::kRays, Pass::kTrace}));
@@ -208,14 +144,14 @@ void run(const Scene& scene, int pairs, int threads) {
     };
     row("G-buffer", all.g_buffer,
         fmt::format("{:.2f} x the primary rays", median(all.ratio_g_buffer)));
-    row("  bare primary rays", all.bare_primary, benchmarks::name(primary_call));
+    row("  bare primary rays", all.bare_primary, shadow::name(primary_call));
     row("shadow pass", all.shadow,
         fmt::format("the bare rays + {:.1f} ms", 1e3 * median(all.excess_shadow)));
     row("  shade", all.shade, "");
     row("  rays", all.rays, "");
     row("  trace", all.trace, "");
     row("  bare shadow rays", all.bare_shadow,
-        fmt::format("{}, {:.1f} Mrays/s", benchmarks::name(shadow_call),
+        fmt::format("{}, {:.1f} Mrays/s", shadow::name(shadow_call),
                     1e-6 * static_cast<double>(work.shadow_rays) / median(all.bare_shadow)));
     row("filter chain", all.filter, "");
     row("evaluate", all.evaluate, "");
