@@ -4,10 +4,15 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 
 #include "apps/bench/csv.h"
+#include "apps/bench/report_reader.h"
 #include "apps/bench/table.h"
+#include "apps/cli/bench_compare.h"
 #include "apps/cli/bench_json.h"
+#include "apps/cli/bench_launches.h"
 #include "apps/cli/bench_options.h"
 #include "apps/cli/option_checks.h"
 #include "apps/cli/say.h"
@@ -23,14 +28,19 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  penumbra bench\n"
     "  penumbra bench shot.json room.json --threads 1,8,64 --json bench.json\n"
-    "  penumbra bench shot.json --size 1280x720 --trace trace.json";
+    "  penumbra bench shot.json --size 1280x720 --trace trace.json\n"
+    "  penumbra bench shot.json --launches 15 --json old.json\n"
+    "  penumbra bench shot.json --compare old.json --fail-slower 3";
 
 void require_files_of_their_own(const BenchOptions& options) {
     std::vector<PlannedFile> outputs;
     if (!options.json.empty()) outputs.emplace_back("--json", options.json);
     if (!options.csv.empty()) outputs.emplace_back("--csv", options.csv);
     if (!options.trace.empty()) outputs.emplace_back("--trace", options.trace);
-    require_distinct(outputs, {options.scenes.begin(), options.scenes.end()});
+    std::vector<std::filesystem::path> inputs{options.scenes.begin(), options.scenes.end()};
+    for (const std::string& report : {options.compare, options.from, options.calls_of})
+        if (!report.empty()) inputs.emplace_back(report);
+    require_distinct(outputs, inputs);
 }
 
 // What goes on, on one line of a terminal; nothing elsewhere.
@@ -47,24 +57,50 @@ void write_files(const BenchOptions& options, const bench::Report& report,
     if (!options.json.empty())
         image::write_file_atomically(options.json, benchmark_json(report) + "\n");
     if (!options.csv.empty()) image::write_file_atomically(options.csv, bench::csv(report));
-    if (!options.trace.empty())
+    if (!options.trace.empty() && report.launches == 1)
         image::write_file_atomically(options.trace,
                                      profile::chrome_trace(recording.profile, "penumbra bench"));
 }
 
-int run_bench(const BenchOptions& options) {
-    const bench::BenchSettings settings = interpret(options);
-    require_files_of_their_own(options);
-    const std::atomic<bool>& cancelled = catch_interrupts();
+// As many as the old report has, unless told.
+int launches_of(const BenchOptions& options, const std::optional<bench::Report>& old) {
+    if (options.launches > 0) return options.launches;
+    return old ? old->launches : 1;
+}
+
+bench::Report obtain_report(const BenchOptions& options, const std::optional<bench::Report>& old,
+                            const std::atomic<bool>& cancelled, bench::Recording& recording) {
+    if (!options.from.empty()) return bench::read_report(options.from);
+    bench::BenchSettings settings = interpret(options);
     const bench::Listener listener = status_line();
-    bench::Recording recording;
-    const bench::Report report =
-        bench::measure(settings, listener, cancelled, options.trace.empty() ? nullptr : &recording);
+    const auto measured = [&] {
+        const int launches = launches_of(options, old);
+        if (launches > 1) return measure_in_launches(options, launches, listener, cancelled);
+        std::optional<bench::Report> calls;
+        if (!options.calls_of.empty()) calls = bench::read_report(options.calls_of);
+        settings.calls_of = calls ? &*calls : nullptr;
+        return bench::measure(settings, listener, cancelled,
+                              options.trace.empty() ? nullptr : &recording);
+    };
+    bench::Report report = measured();
     if (listener) say(stderr, "\r\x1b[K");
+    return report;
+}
+
+int run_bench(const BenchOptions& options) {
+    static_cast<void>(interpret(options));
+    require_files_of_their_own(options);
+    const std::optional<bench::Report> old = read_old_report(options);
+    const std::atomic<bool>& cancelled = catch_interrupts();
+    bench::Recording recording;
+    const bench::Report report = obtain_report(options, old, cancelled, recording);
     if (cancelled) return interrupt_exit_code();
     say(stdout, "{}", bench::table(report));
     write_files(options, report, recording);
-    return 0;
+    if (!old) return 0;
+    const bench::Comparison comparison = bench::compare(*old, report);
+    say(stdout, "\n{}", bench::comparison_table(comparison));
+    return judge(comparison, options);
 }
 
 }  // namespace

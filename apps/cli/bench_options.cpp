@@ -47,6 +47,35 @@ void declare_how(CLI::App& command, BenchOptions& o) {
     command.add_option("--repetitions", o.repetitions, "Measured frames per number of threads")
         ->check(in_range(1, 100000))
         ->capture_default_str();
+    command
+        .add_option("--launches", o.launches,
+                    "Start the program that often, one after the other, and measure in each [1; "
+                    "with --compare as often as the old report]")
+        ->check(in_range(1, 1000));
+    command
+        .add_option("--calls-of", o.calls_of,
+                    "Measure limits with the calls of this report, instead of looking for the "
+                    "quickest [with --compare those of the old report]")
+        ->type_name("FILE.json");
+}
+
+void declare_comparison(CLI::App& command, BenchOptions& o) {
+    command.option_defaults()->group("Comparison");
+    command
+        .add_option("--compare", o.compare,
+                    "Say what got slower since this report, which --json wrote, with confidence; "
+                    "both need at least 5 launches")
+        ->type_name("OLD.json");
+    command
+        .add_option("--fail-slower", o.fail_slower,
+                    "Exit with 1 if a pass is slower by more than so many percent, and certainly "
+                    "slower")
+        ->type_name("PERCENT")
+        ->check(in_range(0, 1e6));
+    command
+        .add_option("--from", o.from,
+                    "Measure nothing: take this report, which --json wrote, for the new one")
+        ->type_name("FILE.json");
 }
 
 void declare_output(CLI::App& command, BenchOptions& o) {
@@ -86,6 +115,14 @@ void read_size(const std::string& text, renderer::ImageSettings& image) {
     image.height = height;
 }
 
+// What was asked for and would not be heard.
+void require_a_purpose(const BenchOptions& o) {
+    if (o.fail_slower && o.compare.empty()) throw InputError("--fail-slower: needs --compare");
+    if (o.from.empty()) return;
+    if (!o.scenes.empty()) throw InputError("--from: measures nothing, so it takes no scenes");
+    if (!o.trace.empty()) throw InputError("--trace: there is none of a report that was written");
+}
+
 std::optional<simd::Isa> kernel_isa(const std::string& word) {
     if (word == "avx2") return simd::Isa::kAvx2;
     if (word == "avx512") return simd::Isa::kAvx512;
@@ -97,11 +134,13 @@ std::optional<simd::Isa> kernel_isa(const std::string& word) {
 void declare_options(CLI::App& command, BenchOptions& options) {
     declare_what(command, options);
     declare_how(command, options);
+    declare_comparison(command, options);
     declare_output(command, options);
     declare_execution(command, options);
 }
 
 bench::BenchSettings interpret(const BenchOptions& o) {
+    require_a_purpose(o);
     bench::BenchSettings settings{.scenes = o.scenes,
                                   .frame = o.frame,
                                   .threads = o.threads,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,10 @@ struct BenchOptions {
     int samples_per_pixel = 0;
     int warmups = 2;
     int repetitions = 11;
+    int launches = 0;  // 0: as is fit
     std::string json, csv, trace;
+    std::string from, calls_of, compare;
+    std::optional<double> fail_slower;
 };
 
 void declare_options(CLI::App& command, BenchOptions& options);

@@ -1,0 +1,247 @@
+#include "apps/bench/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "apps/bench/rank_test.h"
+#include "apps/bench/relabelling.h"
+#include "core/error.h"
+
+namespace penumbra::bench {
+namespace {
+
+// A pass that is in both reports, with the values of the old launches and then of the new ones.
+struct Candidate {
+    PassComparison shown;
+    Quantity values;
+};
+
+int count_launches(const PassResult& pass) {
+    std::map<int, int> samples;
+    for (const Sample& sample : pass.samples) ++samples[sample.launch];
+    return static_cast<int>(samples.size());
+}
+
+class Comparer {
+  public:
+    Comparer(const Report& old_report, const Report& new_report)
+        : old_(old_report), new_(new_report) {}
+
+    Comparison run() {
+        result_.old_launches = require_launches(old_, "old report");
+        result_.new_launches = require_launches(new_, "new report");
+        add_machines();
+        for (const SceneResult& scene : new_.scenes) add_scene(scene);
+        for (const SceneResult& scene : old_.scenes)
+            if (!find_scene(new_, scene.name)) leave_out(scene.name, "only in the old report");
+        if (candidates_.empty()) refuse();
+        judge();
+        return std::move(result_);
+    }
+
+  private:
+    void leave_out(const std::string& what, const std::string& why) {
+        result_.left_out.push_back(fmt::format("{}: {}", what, why));
+    }
+
+    template <class T>
+    void note(const std::string& what, const T& then, const T& now) {
+        if (then != now)
+            result_.differences.push_back(fmt::format("{}: {} then, {} now", what, then, now));
+    }
+
+    void add_machines() {
+        const Machine& then = old_.machine;
+        const Machine& now = new_.machine;
+        note("processor", then.processor, now.processor);
+        note("processors", then.processors, now.processors);
+        note("host", then.host, now.host);
+        note("instruction set of the kernels", then.kernel_isa, now.kernel_isa);
+        note("instruction set of the ray tracer", then.trace_isa, now.trace_isa);
+        note("software", then.software, now.software);
+        note("repetitions", old_.repetitions, new_.repetitions);
+    }
+
+    static const SceneResult* find_scene(const Report& report, const std::string& name) {
+        const auto found = std::find_if(report.scenes.begin(), report.scenes.end(),
+                                        [&](const SceneResult& s) { return s.name == name; });
+        return found == report.scenes.end() ? nullptr : &*found;
+    }
+
+    // Why two results are not of the same work, or "".
+    static std::string mismatch(const SceneResult& then, const SceneResult& now) {
+        std::string text;
+        const auto require = [&](const char* what, const auto& a, const auto& b) {
+            if (a == b) return;
+            if (!text.empty()) text += ", ";
+            text += fmt::format("{} {} then, {} now", what, a, b);
+        };
+        require("size", fmt::format("{} x {}", then.width, then.height),
+                fmt::format("{} x {}", now.width, now.height));
+        require("frame", then.frame, now.frame);
+        require("samples per pixel", then.samples_per_pixel, now.samples_per_pixel);
+        require("triangles", then.triangles, now.triangles);
+        require("lights", then.lights, now.lights);
+        return text;
+    }
+
+    void add_scene(const SceneResult& now) {
+        const SceneResult* const then = find_scene(old_, now.name);
+        if (!then) return leave_out(now.name, "only in the new report");
+        const std::string different = mismatch(*then, now);
+        if (!different.empty()) return leave_out(now.name, different);
+        note(now.name + ": shadow rays", then->shadow_rays, now.shadow_rays);
+        for (const ThreadRun& run : now.runs) {
+            const auto same = std::find_if(then->runs.begin(), then->runs.end(),
+                                           [&](const auto& r) { return r.threads == run.threads; });
+            if (same == then->runs.end())
+                leave_out(fmt::format("{}/threads:{}", now.name, run.threads),
+                          "only in the new report");
+            else
+                add_run(now, *same, run);
+        }
+    }
+
+    void add_run(const SceneResult& scene, const ThreadRun& then, const ThreadRun& now) {
+        for (const PassResult& pass : now.passes) {
+            // Groups repeat their passes, and "other" is what no pass did.
+            if (!pass.parts.empty() || pass.name == "other") continue;
+            const std::string name = benchmark_name(scene, now, pass);
+            const PassResult* const before = find(then, pass.name);
+            if (!before)
+                leave_out(name, "only in the new report");
+            else if (before->limit != pass.limit)
+                leave_out(name, "measured against another limit");
+            else
+                add_pass(name, {.scene = scene.name, .threads = now.threads, .pass = pass.name},
+                         {launch_values(then, *before), launch_values(now, pass)});
+            if (before) note(name + ": limit", before->limit_call, pass.limit_call);
+        }
+    }
+
+    struct Values {
+        std::vector<double> then, now;
+    };
+    void add_pass(const std::string& name, PassComparison shown, const Values& values) {
+        if (values.then.empty() || values.now.empty())
+            return leave_out(name, "too short for the clock");
+        const auto fraction = [](const std::vector<double>& logarithms) {
+            return std::exp(-summarize(logarithms).median);
+        };
+        shown.old_fraction = fraction(values.then);
+        shown.new_fraction = fraction(values.now);
+        const Shift shift = hodges_lehmann(values.then, values.now, kIntervalConfidence);
+        shown.change = std::expm1(shift.estimate);
+        shown.low = std::expm1(shift.low);
+        shown.high = std::expm1(shift.high);
+        shown.rank_probability = mann_whitney(values.then, values.now).probability;
+        Quantity both = values.then;
+        both.insert(both.end(), values.now.begin(), values.now.end());
+        candidates_.push_back({std::move(shown), std::move(both)});
+    }
+
+    [[noreturn]] void refuse() const {
+        std::string why;
+        for (const std::string& reason : result_.left_out) why += "; " + reason;
+        throw InputError("the reports have nothing in common that can be compared" + why);
+    }
+
+    void judge() {
+        const auto old_count = static_cast<std::size_t>(result_.old_launches);
+        std::vector<Quantity> quantities;
+        for (const Candidate& candidate : candidates_) quantities.push_back(candidate.values);
+        const std::vector<double> corrected = corrected_probabilities(quantities, old_count);
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            PassComparison pass = candidates_[i].shown;
+            pass.probability = corrected[i];
+            const bool is_certain =
+                std::max(pass.probability, pass.rank_probability) <= kFalseAlarms;
+            if (is_certain && std::abs(pass.change) >= kLeastChange)
+                pass.verdict = pass.change > 0 ? Verdict::kSlower : Verdict::kFaster;
+            result_.passes.push_back(std::move(pass));
+        }
+        result_.least_probability =
+            bench::least_probability(old_count, static_cast<std::size_t>(result_.new_launches));
+    }
+
+    const Report& old_;
+    const Report& new_;
+    Comparison result_;
+    std::vector<Candidate> candidates_;
+};
+
+double lowest_decile(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return quantile(values, 0.1);
+}
+
+}  // namespace
+
+std::string name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::kSlower:
+            return "SLOWER";
+        case Verdict::kFaster:
+            return "faster";
+        case Verdict::kNoChange:
+            break;
+    }
+    return "";
+}
+
+std::vector<double> launch_values(const ThreadRun& run, const PassResult& pass) {
+    const PassResult& limits = pass.limit == LimitKind::kNone ? whole_frame(run) : pass;
+    struct Times {
+        std::vector<double> pass, limit;
+    };
+    std::map<int, Times> launches;
+    for (std::size_t i = 0; i < pass.samples.size(); ++i) {
+        Times& times = launches[pass.samples[i].launch];
+        times.pass.push_back(pass.samples[i].milliseconds);
+        times.limit.push_back(limits.samples[i].limit_milliseconds);
+    }
+    std::vector<double> values;
+    for (const auto& [launch, times] : launches) {
+        const double time = lowest_decile(times.pass);
+        const double limit = lowest_decile(times.limit);
+        if (time <= 0 || limit <= 0) return {};
+        values.push_back(std::log(time / limit));
+    }
+    return values;
+}
+
+int require_launches(const Report& report, const std::string& which) {
+    int launches = 0;
+    for (const SceneResult& scene : report.scenes)
+        for (const ThreadRun& run : scene.runs)
+            for (const PassResult& pass : run.passes) {
+                const int count = count_launches(pass);
+                if (launches != 0 && count != launches)
+                    throw InputError(fmt::format("{}: {} has {} launches, others have {}", which,
+                                                 benchmark_name(scene, run, pass), count,
+                                                 launches));
+                launches = count;
+            }
+    if (launches < kFewestLaunches)
+        throw InputError(fmt::format(
+            "{}: expected at least {} launches of the program, got {}: one launch's frames "
+            "do not tell how another one's would be; measure with --launches",
+            which, kFewestLaunches, launches));
+    return launches;
+}
+
+Comparison compare(const Report& old_report, const Report& new_report) {
+    return Comparer(old_report, new_report).run();
+}
+
+std::vector<PassComparison> slower_beyond(const Comparison& comparison, double percent) {
+    std::vector<PassComparison> slower;
+    for (const PassComparison& pass : comparison.passes)
+        if (pass.verdict == Verdict::kSlower && 100 * pass.change > percent) slower.push_back(pass);
+    return slower;
+}
+
+}  // namespace penumbra::bench
