@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/renderer/frame_statistics.h"
+#include "apps/renderer/settings.h"
 #include "core/frame/tile.h"
 #include "core/profile/profile.h"
 
@@ -14,8 +15,9 @@ namespace penumbra::renderer {
 class PassClock {
   public:
     PassClock() = default;
-    PassClock(profile::Profile* profile, int worker)
-        : track_(profile ? &profile->track(worker) : nullptr) {}
+    PassClock(const ExecutionSettings& execution, int worker)
+        : track_(execution.profile ? &execution.profile->track(worker) : nullptr),
+          on_pass_(execution.on_pass) {}
 
     void begin_tile(const Tile& tile) {
         x_ = tile.x0;
@@ -24,6 +26,7 @@ class PassClock {
     }
     // The time since the tile began, or since the last call, was spent in this pass.
     void end(Pass pass) {
+        if (on_pass_) (*on_pass_)(pass);
         const profile::Nanoseconds end = profile::now();
         seconds_[pass] += 1e-9 * static_cast<double>(end - begin_);
         if (track_)
@@ -40,6 +43,7 @@ class PassClock {
   private:
     PassSeconds seconds_;
     profile::Track* track_ = nullptr;
+    const PassObserver* on_pass_ = nullptr;
     profile::Nanoseconds begin_ = 0;
     int x_ = 0, y_ = 0;
 };

@@ -65,10 +65,10 @@ struct Renderer::State {
           image(completed(s, i)),
           execution(e),
           arena(e.threads > 0 ? e.threads : parallel::default_thread_count()),
-          occluders(arena, {.isa = e.trace_isa,
-                            .test = i.reproducible ? shadow::HitTest::kExact
-                                                   : shadow::HitTest::kEmbree,
-                            .kernels = e.isa}),
+          occluders(arena,
+                    {.isa = e.trace_isa,
+                     .test = i.reproducible ? shadow::HitTest::kExact : shadow::HitTest::kEmbree,
+                     .kernels = e.isa}),
           scratch(static_cast<std::size_t>(arena.threads())),
           counts(static_cast<std::size_t>(arena.threads())) {
         if (!execution.isa) execution.isa = simd::best_isa();
@@ -189,8 +189,7 @@ FrameStatistics Renderer::render(int frame, AovSet wanted, Film& film,
 
     prepare_film(s.image.width, s.image.height, *s.image.crop, frame_margin(s.image), wanted, film);
     for (int worker = 0; worker < s.arena.threads(); ++worker)
-        s.counts[static_cast<std::size_t>(worker)] = {.clock =
-                                                          PassClock(s.execution.profile, worker)};
+        s.counts[static_cast<std::size_t>(worker)] = {.clock = PassClock(s.execution, worker)};
     FrameContext context{.width = s.image.width,
                          .height = s.image.height,
                          .frame = frame,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/renderer/frame_statistics.h"
 #include "core/frame/tile.h"
 #include "core/parallel/tiles.h"
 #include "core/profile/profile.h"
@@ -35,13 +36,17 @@ struct ImageSettings {
     denoise::FilterSettings filter;
     std::uint32_t seed = 0;
     float light_tolerance =
-        1.0f / 1024;  // the share that culled lights may add up to; 0 culls none
+        1.0f / 1024;            // the share that culled lights may add up to; 0 culls none
     bool reproducible = false;  // shadow rays are settled exactly: equal bits on all processors
 };
 
 // Called with the rays of a tile, one light and one sample, before they are traced: from any worker
 // at any time, but with one tile from one worker.
 using RayObserver = std::function<void(const Tile& tile, const shadow::RayScratch& rays)>;
+
+// Called at the end of each pass of a tile, within its time, from any worker: what makes a pass
+// slower, to try those who say that it is.
+using PassObserver = std::function<void(Pass pass)>;
 
 // What no pixel depends on.
 struct ExecutionSettings {
@@ -53,6 +58,7 @@ struct ExecutionSettings {
     shadow::Visibility visibility = shadow::Visibility::kTraced;  // others: for tests
     profile::Profile* profile = nullptr;   // where every frame's slices go, if anywhere
     const RayObserver* on_rays = nullptr;  // called if not null
+    const PassObserver* on_pass = nullptr;
 };
 
 }  // namespace penumbra::renderer
