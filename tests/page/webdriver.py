@@ -27,7 +27,8 @@ import zlib
 
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # how WebDriver marks an element in JSON
 # Names of keys in WebDriver's private area of Unicode.
-KEYS = {"Enter": "\ue007", "Tab": "\ue004", "ArrowLeft": "\ue012", "ArrowRight": "\ue014"}
+KEYS = {"Enter": "\ue007", "Tab": "\ue004", "Control": "\ue009",
+        "ArrowLeft": "\ue012", "ArrowRight": "\ue014"}
 
 
 class BrowserError(Exception):
@@ -219,6 +220,13 @@ class Browser:
         for key in keys:
             value = KEYS.get(key, key)
             actions += [{"type": "keyDown", "value": value}, {"type": "keyUp", "value": value}]
+        self._act({"type": "key", "id": "keyboard", "actions": actions})
+
+    def press_with(self, held, key):
+        """A key while another one is held down."""
+        held, key = KEYS.get(held, held), KEYS.get(key, key)
+        actions = [{"type": kind, "value": value} for kind, value in (
+            ("keyDown", held), ("keyDown", key), ("keyUp", key), ("keyUp", held))]
         self._act({"type": "key", "id": "keyboard", "actions": actions})
 
     def drag(self, begin, end):

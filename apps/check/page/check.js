@@ -35,7 +35,7 @@
       figure.append(image, caption);
       figure.onclick = () => {
         viewer.querySelector(`[data-mode="${i === 2 ? "heat" : "side"}"]`).click();
-        stage.scrollIntoView({ block: "nearest", behavior: "smooth" });
+        stage.scrollIntoView({ block: "nearest" });
       };
       glance.append(figure);
     });
