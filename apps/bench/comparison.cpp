@@ -116,7 +116,11 @@ class Comparer {
             else if (before->limit != pass.limit)
                 leave_out(name, "measured against another limit");
             else
-                add_pass(name, {.scene = scene.name, .threads = now.threads, .pass = pass.name},
+                add_pass(name,
+                         {.scene = scene.name,
+                          .threads = now.threads,
+                          .pass = pass.name,
+                          .has_limit = pass.limit != LimitKind::kNone},
                          {launch_values(then, *before), launch_values(now, pass)});
             if (before) note(name + ": limit", before->limit_call, pass.limit_call);
         }

@@ -27,6 +27,7 @@ struct PassComparison {
     std::string scene;
     int threads = 0;
     std::string pass;
+    bool has_limit = false;                     // else it was measured against the frame's
     double old_fraction = 0, new_fraction = 0;  // of the limit, medians over the launches
     // Of the pass's time where the limit's stays the same, 0.05 is 5 % slower: the estimate and its
     // interval.

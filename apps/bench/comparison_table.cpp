@@ -21,6 +21,10 @@ std::string probability(double value) {
     return value < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", value);
 }
 
+std::string fraction(const PassComparison& pass, double value) {
+    return pass.has_limit ? fmt::format("{:.3f}", value) : "";
+}
+
 void append_notes(const Comparison& comparison, std::string& text) {
     for (const std::string& difference : comparison.differences)
         append(text, "  differs: {}\n", difference);
@@ -34,9 +38,9 @@ void append_notes(const Comparison& comparison, std::string& text) {
 }
 
 void append_row(const PassComparison& pass, std::string& text) {
-    append(text, "  {:<11} {:>9.3f} {:>9.3f} {:>9} {:>20} {:>9} {:>9}  {}\n", pass.pass,
-           pass.old_fraction, pass.new_fraction, percent(pass.change),
-           fmt::format("{} to {}", percent(pass.low), percent(pass.high)),
+    append(text, "  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9}  {}\n", pass.pass,
+           fraction(pass, pass.old_fraction), fraction(pass, pass.new_fraction),
+           percent(pass.change), fmt::format("{} to {}", percent(pass.low), percent(pass.high)),
            probability(pass.rank_probability), probability(pass.probability), name(pass.verdict));
 }
 

@@ -17,6 +17,7 @@
 #include "apps/cli/option_checks.h"
 #include "apps/cli/say.h"
 #include "apps/cli/signals.h"
+#include "core/error.h"
 #include "core/image/publish.h"
 #include "core/profile/trace.h"
 
@@ -52,14 +53,22 @@ bench::Listener status_line() {
     };
 }
 
-void write_files(const BenchOptions& options, const bench::Report& report,
-                 const bench::Recording& recording) {
+// What was measured, and what came of comparing it.
+struct Results {
+    bench::Report report;
+    std::optional<bench::Comparison> comparison;
+    bench::Recording recording;
+};
+
+void write_files(const BenchOptions& options, const Results& results) {
+    const bench::Report& report = results.report;
+    const bench::Comparison* const comparison = results.comparison ? &*results.comparison : nullptr;
     if (!options.json.empty())
-        image::write_file_atomically(options.json, benchmark_json(report) + "\n");
+        image::write_file_atomically(options.json, benchmark_json(report, comparison) + "\n");
     if (!options.csv.empty()) image::write_file_atomically(options.csv, bench::csv(report));
     if (!options.trace.empty() && report.launches == 1)
-        image::write_file_atomically(options.trace,
-                                     profile::chrome_trace(recording.profile, "penumbra bench"));
+        image::write_file_atomically(
+            options.trace, profile::chrome_trace(results.recording.profile, "penumbra bench"));
 }
 
 // As many as the old report has, unless told.
@@ -92,15 +101,20 @@ int run_bench(const BenchOptions& options) {
     require_files_of_their_own(options);
     const std::optional<bench::Report> old = read_old_report(options);
     const std::atomic<bool>& cancelled = catch_interrupts();
-    bench::Recording recording;
-    const bench::Report report = obtain_report(options, old, cancelled, recording);
+    Results results;
+    results.report = obtain_report(options, old, cancelled, results.recording);
     if (cancelled) return interrupt_exit_code();
-    say(stdout, "{}", bench::table(report));
-    write_files(options, report, recording);
-    if (!old) return 0;
-    const bench::Comparison comparison = bench::compare(*old, report);
-    say(stdout, "\n{}", bench::comparison_table(comparison));
-    return judge(comparison, options);
+    say(stdout, "{}", bench::table(results.report));
+    try {
+        if (old) results.comparison = bench::compare(*old, results.report);
+    } catch (const InputError&) {
+        write_files(options, results);  // what was measured is not lost
+        throw;
+    }
+    write_files(options, results);
+    if (!results.comparison) return 0;
+    say(stdout, "\n{}", bench::comparison_table(*results.comparison));
+    return judge(*results.comparison, options);
 }
 
 }  // namespace

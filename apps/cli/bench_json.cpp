@@ -155,9 +155,35 @@ ordered_json counters_entry(const SceneResult& scene, const ThreadRun& run) {
             {"cache_misses", run.counters->cache_misses}};
 }
 
+// Infinite where there are too few launches for an interval.
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json comparison_entry(const bench::Comparison& comparison) {
+    ordered_json passes = ordered_json::array();
+    for (const bench::PassComparison& pass : comparison.passes)
+        passes.push_back({{"scene", pass.scene},
+                          {"threads", pass.threads},
+                          {"pass", pass.pass},
+                          {"old_fraction_of_limit", pass.old_fraction},
+                          {"fraction_of_limit", pass.new_fraction},
+                          {"change", pass.change},
+                          {"change_low", number(pass.low)},
+                          {"change_high", number(pass.high)},
+                          {"probability_alone", pass.rank_probability},
+                          {"probability", pass.probability},
+                          {"verdict", bench::name(pass.verdict)}});
+    return {{"old_launches", comparison.old_launches},
+            {"launches", comparison.new_launches},
+            {"differences", comparison.differences},
+            {"not_compared", comparison.left_out},
+            {"passes", std::move(passes)}};
+}
+
 }  // namespace
 
-std::string benchmark_json(const bench::Report& report) {
+std::string benchmark_json(const bench::Report& report, const bench::Comparison* comparison) {
     ordered_json root = {{"context", context(report)}, {"benchmarks", ordered_json::array()}};
     ordered_json scenes = ordered_json::array();
     ordered_json counters = ordered_json::array();
@@ -172,6 +198,7 @@ std::string benchmark_json(const bench::Report& report) {
     }
     root["context"]["scenes"] = std::move(scenes);
     if (!counters.empty()) root["context"]["counters_per_frame"] = std::move(counters);
+    if (comparison) root["comparison"] = comparison_entry(*comparison);
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace);
 }
 

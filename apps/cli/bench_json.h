@@ -2,13 +2,16 @@
 
 #include <string>
 
+#include "apps/bench/comparison.h"
 #include "apps/bench/report.h"
 
 namespace penumbra::cli {
 
 // The report in Google Benchmark's JSON format, so that its compare.py reads it: one entry per
 // repetition and pass, then their mean, median, standard deviation and coefficient of variation.
-// Further keys hold what that format has no place for; docs/bench.md lists them.
-[[nodiscard]] std::string benchmark_json(const bench::Report& report);
+// Further keys hold what that format has no place for; docs/bench.md lists them. `comparison` may
+// be null.
+[[nodiscard]] std::string benchmark_json(const bench::Report& report,
+                                         const bench::Comparison* comparison = nullptr);
 
 }  // namespace penumbra::cli
