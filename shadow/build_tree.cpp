@@ -37,6 +37,7 @@ void* allocate(RTCThreadLocalAllocator allocator, std::size_t bytes) {
 void* create_node(RTCThreadLocalAllocator allocator, unsigned /*children*/, void* /*user*/) {
     auto* const node = new (allocate(allocator, sizeof(TreeNode))) TreeNode;
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::fill_n(node->children, kTreeWidth, TreeReference{});
     std::fill_n(&node->bounds[0][0][0], 3 * kTreeWidth, kInfinity);
     std::fill_n(&node->bounds[1][0][0], 3 * kTreeWidth, -kInfinity);
     return node;

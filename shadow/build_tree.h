@@ -32,7 +32,7 @@ class TreeBuilder {
         friend class TreeBuilder;
         struct Memory;
         std::unique_ptr<Memory> memory_;
-        TreeReference root_;
+        TreeReference root_{};
     };
 
     // Throws OutputError if memory is short.

@@ -35,7 +35,7 @@ constexpr float kExitMargin = 0x1p-100f;
 constexpr float kSmallestComponent = 0x1p-120f;
 
 // At most this many rays of a packet go on one by one.
-constexpr int kFewRays = kLanes / 4;
+constexpr int kFewRays = kLanes / 8;
 
 // A packet of rays, and what is computed of them once.
 struct Packet {
@@ -89,8 +89,7 @@ void set_up(const shadow::RayStream& rays, int first, std::uint32_t active, Pack
     set_up_frames(direction, near_limit, far_limit, active, p);
 }
 
-// ---- triangles
-// -----------------------------------------------------------------------------------
+// ---- triangles ----------------------------------------------------------------------------------
 
 Vec3f vertex(const TreeLeaf& leaf, int triangle, int index) {
     const auto& v = leaf.vertices[index];
@@ -186,8 +185,7 @@ std::uint32_t blocked_together(const TreeLeaf& leaf, const Packet& p, std::uint3
     return blocked;
 }
 
-// ---- boxes
-// ---------------------------------------------------------------------------------------
+// ---- boxes --------------------------------------------------------------------------------------
 
 // Of `kTreeWidth` boxes, those that one ray passes through.
 std::uint32_t boxes_passed(const TreeNode& node, const Packet& p, int ray) {
@@ -205,22 +203,31 @@ std::uint32_t boxes_passed(const TreeNode& node, const Packet& p, int ray) {
 
 struct PacketLanes {
     F origin[3], reciprocal[3], near_limit, far_limit;
+    // The side of a box at which all active rays enter along each axis: TreeNode::bounds[side].
+    // Meaningful if they go the same way.
+    int entry_side[3];
+    bool have_one_octant;
 };
 
+F crossing(const TreeNode& node, int side, int axis, int child, const PacketLanes& p) {
+    return (F(node.bounds[side][axis][child]) - p.origin[axis]) * p.reciprocal[axis];
+}
+
 // Of a packet's rays, those that pass through one box.
+template <bool kOneOctant>
 std::uint32_t rays_inside(const TreeNode& node, int child, const PacketLanes& p) {
     F entry = p.near_limit, exit = p.far_limit;
     for (int axis = 0; axis < 3; ++axis) {
-        const F lower = (F(node.bounds[0][axis][child]) - p.origin[axis]) * p.reciprocal[axis];
-        const F upper = (F(node.bounds[1][axis][child]) - p.origin[axis]) * p.reciprocal[axis];
-        entry = simd::max(entry, simd::min(lower, upper));
-        exit = simd::min(exit, simd::max(lower, upper));
+        const int side = kOneOctant ? p.entry_side[axis] : 0;
+        const F first = crossing(node, side, axis, child, p);
+        const F second = crossing(node, 1 - side, axis, child, p);
+        entry = simd::max(entry, kOneOctant ? first : simd::min(first, second));
+        exit = simd::min(exit, kOneOctant ? second : simd::max(first, second));
     }
     return simd::bits(entry <= simd::fma(exit, F(kExitFactor), F(kExitMargin)));
 }
 
-// ---- the tree
-// ------------------------------------------------------------------------------------
+// ---- the tree -----------------------------------------------------------------------------------
 
 constexpr int kStackSize = shadow::kMaxTreeDepth * (kTreeWidth - 1) + 1;
 
@@ -255,21 +262,26 @@ struct Visit {
     std::uint32_t rays;
 };
 
+template <bool kOneOctant>
 int push_children(const TreeNode& node, const PacketLanes& lanes, std::uint32_t active,
                   Visit* stack) {
     int pushed = 0;
     for (int child = 0; child < kTreeWidth && !node.children[child].is_null(); ++child) {
-        const std::uint32_t inside = rays_inside(node, child, lanes) & active;
+        const std::uint32_t inside = rays_inside<kOneOctant>(node, child, lanes) & active;
         if (inside != 0) stack[pushed++] = {node.children[child], inside};
     }
     return pushed;
 }
 
-PacketLanes lanes_of(const Packet& p) {
+PacketLanes lanes_of(const Packet& p, std::uint32_t active) {
     PacketLanes lanes;
+    lanes.have_one_octant = true;
     for (int axis = 0; axis < 3; ++axis) {
         lanes.origin[axis] = simd::load<F>(p.origin[axis]);
         lanes.reciprocal[axis] = simd::load<F>(p.reciprocal[axis]);
+        const std::uint32_t backward = simd::bits(lanes.reciprocal[axis] < F(0)) & active;
+        lanes.entry_side[axis] = backward != 0 ? 1 : 0;
+        lanes.have_one_octant &= backward == 0 || backward == active;
     }
     lanes.near_limit = simd::load<F>(p.near_limit);
     lanes.far_limit = simd::load<F>(p.far_limit);
@@ -277,7 +289,7 @@ PacketLanes lanes_of(const Packet& p) {
 }
 
 std::uint32_t blocked_rays(TreeReference root, const Packet& p, std::uint32_t all) {
-    const PacketLanes lanes = lanes_of(p);
+    const PacketLanes lanes = lanes_of(p, all);
     Visit stack[kStackSize];
     int height = 0;
     stack[height++] = {root, all};
@@ -289,7 +301,9 @@ std::uint32_t blocked_rays(TreeReference root, const Packet& p, std::uint32_t al
         if (__builtin_popcount(active) <= kFewRays)
             blocked |= blocked_below_one_by_one(top.what, p, active);
         else if (!top.what.is_leaf())
-            height += push_children(top.what.node(), lanes, active, stack + height);
+            height += lanes.have_one_octant
+                          ? push_children<true>(top.what.node(), lanes, active, stack + height)
+                          : push_children<false>(top.what.node(), lanes, active, stack + height);
         else if (p.has_one_axis && !top.what.leaf().has_cutouts)
             blocked |= blocked_together(top.what.leaf(), p, active);
         else

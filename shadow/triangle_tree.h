@@ -27,7 +27,8 @@ struct alignas(64) TreeLeaf {
 
 struct TreeNode;
 
-// A pointer to a node, to a leaf (odd), or null.
+// A pointer to a node, to a leaf (odd), or null: TreeReference{}. Without braces it is anything, so
+// that stacks of them cost nothing to make.
 class TreeReference {
   public:
     TreeReference() = default;
@@ -42,7 +43,7 @@ class TreeReference {
     }
 
   private:
-    std::uintptr_t bits_ = 0;
+    std::uintptr_t bits_;
 };
 
 struct alignas(64) TreeNode {

@@ -1,7 +1,9 @@
 // What --reproducible costs: the same frames with Embree's triangles and with our own, in turns, in
 // one run; medians of the ratios.
 //
-//     reproducible_price SCENE|builtin [PAIRS] [THREADS] [SIZE, e.g. 1920x1080]
+//     reproducible_price SCENE|builtin [PAIRS] [THREADS] [SIZE, e.g. 1920x1080] [avx2|avx512]
+//
+// Embree runs with AVX2, its default here; the last argument is the kernels' instruction set.
 
 #include <fmt/format.h>
 
@@ -58,10 +60,11 @@ double differing_share(const renderer::Film& a, const renderer::Film& b) {
     return static_cast<double>(differing) / static_cast<double>(std::max(all, 1L));
 }
 
-void run(const Scene& scene, renderer::ImageSettings image, int pairs, int threads) {
-    renderer::Renderer fast(scene, image, {.threads = threads});
+void run(const Scene& scene, renderer::ImageSettings image,
+         const renderer::ExecutionSettings& execution, int pairs) {
+    renderer::Renderer fast(scene, image, execution);
     image.reproducible = true;
-    renderer::Renderer exact(scene, image, {.threads = threads});
+    renderer::Renderer exact(scene, image, execution);
     renderer::Film fast_film, exact_film;
     const double fast_build = first_frame(fast, fast_film);
     const double exact_build = first_frame(exact, exact_film);
@@ -86,17 +89,21 @@ void run(const Scene& scene, renderer::ImageSettings image, int pairs, int threa
 
 int main(int argc, char** argv) {
     if (argc < 2) {
-        fmt::print(stderr, "usage: reproducible_price SCENE|builtin [PAIRS] [THREADS] [WxH]\n");
+        fmt::print(stderr,
+                   "usage: reproducible_price SCENE|builtin [PAIRS] [THREADS] [WxH] [ISA]\n");
         return 2;
     }
     try {
         const int pairs = argc > 2 ? std::atoi(argv[2]) : 11;
-        const int threads = argc > 3 ? std::atoi(argv[3]) : 2;
+        renderer::ExecutionSettings execution{.threads = argc > 3 ? std::atoi(argv[3]) : 2};
         renderer::ImageSettings image{.width = 1920, .height = 1080, .samples_per_pixel = 1};
         if (argc > 4 && std::sscanf(argv[4], "%dx%d", &image.width, &image.height) != 2) return 2;
+        if (argc > 5)
+            execution.isa =
+                std::string_view(argv[5]) == "avx512" ? simd::Isa::kAvx512 : simd::Isa::kAvx2;
         const Scene scene = std::string_view(argv[1]) == "builtin" ? renderer::read_builtin_scene()
                                                                    : read_scene(argv[1]);
-        run(scene, image, std::max(pairs, 1), std::max(threads, 1));
+        run(scene, image, execution, std::max(pairs, 1));
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());
         return 1;
