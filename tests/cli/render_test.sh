@@ -141,10 +141,15 @@ check "a changed exposure renders previews anew" bash -c \
     "'$penumbra' render shot.json -f 2 -o c/x.exr --preview c/x.png --resume | grep -c skipped | grep -qx 1 &&
      '$penumbra' render shot.json -f 2 -o c/x.exr --preview c/x.png --exposure 1 --resume | grep -c skipped | grep -qx 0"
 
+check "--resume keeps frames with and without --reproducible apart, Embree's instruction set not" bash -c \
+    "'$penumbra' render shot.json -f 2 -o exact/x.exr >/dev/null &&
+     '$penumbra' render shot.json -f 2 -o exact/x.exr --reproducible --resume | grep -c skipped | grep -qx 0 &&
+     '$penumbra' render shot.json -f 2 -o exact/x.exr --reproducible --trace-isa auto --resume | grep -c skipped | grep -qx 1"
+
 # ---- help
 check "--help explains every option" bash -c \
     "for o in --output --frames --size --crop --method --spp --aa --denoise --aov --compression --precision --resume \
-        --preview --exposure --threads --isa --trace-isa --seed --stats --progress --dry-run; do
+        --preview --exposure --threads --isa --trace-isa --reproducible --seed --stats --progress --dry-run; do
         '$penumbra' render --help | grep -q -- \"\$o\" || { echo \"  \$o\"; exit 1; }
      done"
 
