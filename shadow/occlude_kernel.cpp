@@ -15,6 +15,8 @@
 
 #include "shadow/occlude_kernel.h"
 
+#include <limits>
+
 #include "core/simd/kernel.h"
 #include "shadow/segment_triangle.h"
 

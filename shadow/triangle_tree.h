@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "core/scene/cutout.h"
 
@@ -32,18 +31,17 @@ struct TreeNode;
 class TreeReference {
   public:
     TreeReference() = default;
-    explicit TreeReference(const TreeNode* node) : bits_(reinterpret_cast<std::uintptr_t>(node)) {}
-    explicit TreeReference(const TreeLeaf* leaf)
-        : bits_(reinterpret_cast<std::uintptr_t>(leaf) | 1) {}
-    [[nodiscard]] bool is_leaf() const { return (bits_ & 1) != 0; }
-    [[nodiscard]] bool is_null() const { return bits_ == 0; }
-    [[nodiscard]] const TreeNode& node() const { return *reinterpret_cast<const TreeNode*>(bits_); }
+    explicit TreeReference(const TreeNode* node) : at_(reinterpret_cast<const char*>(node)) {}
+    explicit TreeReference(const TreeLeaf* leaf) : at_(reinterpret_cast<const char*>(leaf) + 1) {}
+    [[nodiscard]] bool is_leaf() const { return (reinterpret_cast<std::uintptr_t>(at_) & 1) != 0; }
+    [[nodiscard]] bool is_null() const { return at_ == nullptr; }
+    [[nodiscard]] const TreeNode& node() const { return *reinterpret_cast<const TreeNode*>(at_); }
     [[nodiscard]] const TreeLeaf& leaf() const {
-        return *reinterpret_cast<const TreeLeaf*>(bits_ & ~std::uintptr_t{1});
+        return *reinterpret_cast<const TreeLeaf*>(at_ - 1);
     }
 
   private:
-    std::uintptr_t bits_;
+    const char* at_;
 };
 
 struct alignas(64) TreeNode {
