@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "apps/bench/launch_values.h"
 #include "apps/bench/rank_test.h"
 #include "apps/bench/relabelling.h"
 #include "core/error.h"
@@ -109,6 +110,7 @@ class Comparer {
         for (const PassResult& pass : now.passes) {
             // Groups repeat their passes, and "other" is what no pass did.
             if (!pass.parts.empty() || pass.name == "other") continue;
+            if (pass.limit == LimitKind::kNone) continue;  // times of another day say nothing
             const std::string name = benchmark_name(scene, now, pass);
             const PassResult* const before = find(then, pass.name);
             if (!before)
@@ -116,20 +118,13 @@ class Comparer {
             else if (before->limit != pass.limit)
                 leave_out(name, "measured against another limit");
             else
-                add_pass(name,
-                         {.scene = scene.name,
-                          .threads = now.threads,
-                          .pass = pass.name,
-                          .has_limit = pass.limit != LimitKind::kNone},
-                         {launch_values(then, *before), launch_values(now, pass)});
+                add_pass(name, {.scene = scene.name, .threads = now.threads, .pass = pass.name},
+                         steadiest_values(*before, pass));
             if (before) note(name + ": limit", before->limit_call, pass.limit_call);
         }
     }
 
-    struct Values {
-        std::vector<double> then, now;
-    };
-    void add_pass(const std::string& name, PassComparison shown, const Values& values) {
+    void add_pass(const std::string& name, PassComparison shown, const LaunchValues& values) {
         if (values.then.empty() || values.now.empty())
             return leave_out(name, "too short for the clock");
         const auto fraction = [](const std::vector<double>& logarithms) {
@@ -161,9 +156,12 @@ class Comparer {
         for (std::size_t i = 0; i < candidates_.size(); ++i) {
             PassComparison pass = candidates_[i].shown;
             pass.probability = corrected[i];
+            pass.strength = shift_strength(candidates_[i].values, old_count);
             const bool is_certain =
                 std::max(pass.probability, pass.rank_probability) <= kFalseAlarms;
-            if (is_certain && std::abs(pass.change) >= kLeastChange)
+            const bool is_large =
+                std::abs(pass.change) >= kLeastChange && pass.strength >= kLeastStrength;
+            if (is_certain && is_large)
                 pass.verdict = pass.change > 0 ? Verdict::kSlower : Verdict::kFaster;
             result_.passes.push_back(std::move(pass));
         }
@@ -177,11 +175,6 @@ class Comparer {
     std::vector<Candidate> candidates_;
 };
 
-double lowest_decile(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return quantile(values, 0.1);
-}
-
 }  // namespace
 
 std::string name(Verdict verdict) {
@@ -194,27 +187,6 @@ std::string name(Verdict verdict) {
             break;
     }
     return "";
-}
-
-std::vector<double> launch_values(const ThreadRun& run, const PassResult& pass) {
-    const PassResult& limits = pass.limit == LimitKind::kNone ? whole_frame(run) : pass;
-    struct Times {
-        std::vector<double> pass, limit;
-    };
-    std::map<int, Times> launches;
-    for (std::size_t i = 0; i < pass.samples.size(); ++i) {
-        Times& times = launches[pass.samples[i].launch];
-        times.pass.push_back(pass.samples[i].milliseconds);
-        times.limit.push_back(limits.samples[i].limit_milliseconds);
-    }
-    std::vector<double> values;
-    for (const auto& [launch, times] : launches) {
-        const double time = lowest_decile(times.pass);
-        const double limit = lowest_decile(times.limit);
-        if (time <= 0 || limit <= 0) return {};
-        values.push_back(std::log(time / limit));
-    }
-    return values;
 }
 
 int require_launches(const Report& report, const std::string& which) {

@@ -20,6 +20,10 @@ inline constexpr double kIntervalConfidence = 0.95;
 // closer than that from one hour to the next.
 inline constexpr double kLeastChange = 0.02;
 
+// Nor is one below so many times what two launches of the same program typically differ by: the
+// neighbours of one hour are not those of another.
+inline constexpr double kLeastStrength = 2.5;
+
 enum class Verdict { kNoChange, kSlower, kFaster };
 [[nodiscard]] std::string name(Verdict verdict);  // "", "SLOWER", "faster"
 
@@ -27,13 +31,13 @@ struct PassComparison {
     std::string scene;
     int threads = 0;
     std::string pass;
-    bool has_limit = false;                     // else it was measured against the frame's
     double old_fraction = 0, new_fraction = 0;  // of the limit, medians over the launches
     // Of the pass's time where the limit's stays the same, 0.05 is 5 % slower: the estimate and its
     // interval.
     double change = 0, low = 0, high = 0;
     double rank_probability = 1;  // of Mann and Whitney's test, for this pass alone
     double probability = 1;       // corrected for the number of passes
+    double strength = 0;          // of the change, in differences between launches of one report
     Verdict verdict = Verdict::kNoChange;
 };
 
@@ -58,10 +62,5 @@ int require_launches(const Report& report, const std::string& which);
                                                         double percent);
 
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
-
-// One value per launch: the logarithm of pass / limit, each its lowest decile over the launch's
-// repetitions. What disturbs a frame makes it slower, never quicker. A pass without a limit of its
-// own is measured against the frame's. Empty where one of the times is zero.
-[[nodiscard]] std::vector<double> launch_values(const ThreadRun& run, const PassResult& pass);
 
 }  // namespace penumbra::bench

@@ -21,10 +21,6 @@ std::string probability(double value) {
     return value < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", value);
 }
 
-std::string fraction(const PassComparison& pass, double value) {
-    return pass.has_limit ? fmt::format("{:.3f}", value) : "";
-}
-
 void append_notes(const Comparison& comparison, std::string& text) {
     for (const std::string& difference : comparison.differences)
         append(text, "  differs: {}\n", difference);
@@ -38,10 +34,11 @@ void append_notes(const Comparison& comparison, std::string& text) {
 }
 
 void append_row(const PassComparison& pass, std::string& text) {
-    append(text, "  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9}  {}\n", pass.pass,
-           fraction(pass, pass.old_fraction), fraction(pass, pass.new_fraction),
-           percent(pass.change), fmt::format("{} to {}", percent(pass.low), percent(pass.high)),
-           probability(pass.rank_probability), probability(pass.probability), name(pass.verdict));
+    append(text, "  {:<11} {:>9.3f} {:>9.3f} {:>9} {:>20} {:>9} {:>9} {:>9.1f}  {}\n", pass.pass,
+           pass.old_fraction, pass.new_fraction, percent(pass.change),
+           fmt::format("{} to {}", percent(pass.low), percent(pass.high)),
+           probability(pass.rank_probability), probability(pass.probability), pass.strength,
+           name(pass.verdict));
 }
 
 int count(const Comparison& comparison, Verdict verdict) {
@@ -61,9 +58,10 @@ std::string comparison_table(const Comparison& comparison) {
     const PassComparison* above = nullptr;
     for (const PassComparison& pass : comparison.passes) {
         if (!above || above->scene != pass.scene || above->threads != pass.threads)
-            append(text, "\n  {}, {} thread{}\n  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9}\n",
+            append(text,
+                   "\n  {}, {} thread{}\n  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9} {:>9}\n",
                    pass.scene, pass.threads, pass.threads == 1 ? "" : "s", "of limit:", "then",
-                   "now", "change", "95 % interval", "p alone", "p of all");
+                   "now", "change", "95 % interval", "p alone", "p of all", "strength");
         append_row(pass, text);
         above = &pass;
     }

@@ -91,16 +91,24 @@ void shuffle(Labels& labels, std::mt19937_64& random) {
         std::swap(labels[i - 1], labels[static_cast<std::size_t>(random() % i)]);
 }
 
+Labels labels_of(std::size_t launches, std::size_t old_count) {
+    Labels labels(launches, 0);
+    std::fill(labels.begin() + static_cast<std::ptrdiff_t>(old_count), labels.end(), 1);
+    return labels;
+}
+
 }  // namespace
+
+double shift_strength(const Quantity& quantity, std::size_t old_count) {
+    return Strength()(quantity, labels_of(quantity.size(), old_count));
+}
 
 std::vector<double> corrected_probabilities(const std::vector<Quantity>& quantities,
                                             std::size_t old_count) {
     if (quantities.empty()) return {};
     const std::size_t launches = quantities.front().size();
     PENUMBRA_ASSERT(old_count > 1 && launches > old_count + 1, "{} of {}", old_count, launches);
-    Labels labels(launches, 0);
-    std::fill(labels.begin() + static_cast<std::ptrdiff_t>(old_count), labels.end(), 1);
-
+    Labels labels = labels_of(launches, old_count);
     std::vector<double> observed;
     Strength strength;
     for (const Quantity& quantity : quantities) observed.push_back(strength(quantity, labels));

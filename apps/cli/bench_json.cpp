@@ -23,7 +23,7 @@ ordered_json context(const bench::Report& report) {
     return {
         {"date", machine.date}, {"host_name", machine.host}, {"executable", "penumbra bench"},
             {"num_cpus", machine.processors}, {"mhz_per_cpu", std::llround(machine.megahertz)},
-            {"cpu_scaling_enabled", false}, {"caches", std::move(caches)},
+            {"cpu_scaling_enabled", machine.is_scaling}, {"caches", std::move(caches)},
             {"load_avg", machine.load},
 #if defined(NDEBUG)
             {"library_build_type", "release"},
@@ -173,6 +173,7 @@ ordered_json comparison_entry(const bench::Comparison& comparison) {
                           {"change_high", number(pass.high)},
                           {"probability_alone", pass.rank_probability},
                           {"probability", pass.probability},
+                          {"strength", pass.strength},
                           {"verdict", bench::name(pass.verdict)}});
     return {{"old_launches", comparison.old_launches},
             {"launches", comparison.new_launches},
