@@ -25,8 +25,7 @@ std::vector<fs::path> stems_in(const fs::path& folder, const std::vector<Check>&
     for (const Check& check : checks) names.push_back(fs::weakly_canonical(check.name));
     fs::path common = names.front().parent_path();
     for (const fs::path& name : names)
-        while (name.lexically_relative(common).string().starts_with(".."))
-            common = common.parent_path();
+        while (*name.lexically_relative(common).begin() == "..") common = common.parent_path();
     for (fs::path& name : names) {
         std::string file;  // '#' would become the frame number
         for (const char c : name.filename().string()) file += c == '#' ? "%23" : std::string(1, c);

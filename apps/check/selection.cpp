@@ -33,7 +33,7 @@ std::optional<std::string> without(std::string_view path, std::string_view endin
 std::optional<std::string> check_of_golden(std::string_view path) {
     const auto stem = without(path, ".exr");
     if (!stem) return std::nullopt;
-    if (const auto name = without(*stem, kGolden)) return name;
+    if (auto name = without(*stem, kGolden)) return name;
     const std::size_t dot = stem->rfind('.');
     if (dot == std::string::npos || !is_frame_number(std::string_view(*stem).substr(dot + 1)))
         return std::nullopt;

@@ -2,7 +2,7 @@
 # The project's own golden images. With --reproducible they are matched to the last bit by every processor, vector
 # width and number of threads. Without it Embree's occluded bit may differ for one ray in a million from maker to maker
 # (docs/reproducibility.md): such a ray may be seen, anything more not. After a change that is meant to be seen:
-# penumbra check data/goldens --update. Usage: golden_test.sh PENUMBRA
+# penumbra check data/goldens --reproducible --update. Usage: golden_test.sh PENUMBRA
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 cd "$source_dir" || exit 1
 
