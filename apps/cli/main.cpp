@@ -10,6 +10,7 @@
 #include "apps/cli/diff_command.h"
 #include "apps/cli/help_format.h"
 #include "apps/cli/info_command.h"
+#include "apps/cli/parse_errors.h"
 #include "apps/cli/render_command.h"
 #include "apps/cli/say.h"
 #include "core/error.h"
@@ -53,7 +54,7 @@ int run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-        return report(e.what(), kInputIsWrong);
+        return report(penumbra::cli::explain(e, app), kInputIsWrong);
     }
     penumbra::cli::require_said();
     return exit_code;

@@ -110,9 +110,17 @@ printf '\x76\x2f\x31\x01\2\0\0\0channels\0chlist\0' >cut.exr
 bad_texture "a truncated EXR" cut.exr
 
 # ---- the command line
-check "no subcommand" refuses 2 "" "$penumbra"
-check "an unknown subcommand" refuses 2 "" "$penumbra" paint
-bad_option "an unknown option" "--wobble" --wobble
+check "no command" refuses 2 "expected a command: render, info" "$penumbra"
+check "an unknown command" refuses 2 'got "paint"' "$penumbra" paint
+check "a misspelt command" refuses 2 'did you mean "render"?' "$penumbra" rendr
+check "an option before the command" refuses 2 "--spp: penumbra has no such option" "$penumbra" --spp 4
+check "an option without its value" refuses 2 "--aov: expected LIST, got nothing" "$penumbra" render --aov
+check "an argument too many" refuses 2 'got "c" as well' "$penumbra" diff a b c
+check "an argument too few" refuses 2 "TEST: is missing, expected penumbra diff" "$penumbra" diff a
+bad_option "an unknown option" "--wobble: penumbra render has no such option" --wobble
+bad_option "a misspelt option" 'did you mean "--method"?' --methods=ratio
+check "a misspelt option before a missing argument" refuses 2 'did you mean "--mask"?' "$penumbra" diff --masks x.png
+bad_option "a word that is none" 'expected one of ratio, stochastic' --method magic
 bad_option "an option of a feature that does not exist" "temporal" --temporal taa
 bad_option "an unknown method" "--method" --method magic
 bad_option "frames that are no list" "--frames" -f 1-x
