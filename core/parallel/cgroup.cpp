@@ -56,7 +56,7 @@ void add_folders(const Mount& mount, const std::filesystem::path& path,
                  const std::filesystem::path& root, std::vector<CgroupFolder>& folders) {
     const std::filesystem::path top = root / mount.point.relative_path();
     const std::filesystem::path below = path.lexically_relative(mount.root);
-    const bool is_visible = !below.empty() && *below.begin() != "..";
+    const bool is_visible = !below.empty() && below != "." && *below.begin() != "..";
     std::filesystem::path folder = is_visible ? (top / below).lexically_normal() : top;
     folders.push_back({top, mount.is_v2});
     for (; folder != top && folder.string().size() > top.string().size();
