@@ -80,6 +80,13 @@ std::vector<Machine::Cache> caches() {
     }
 }
 
+// As Google Benchmark tells it: any governor but "performance".
+bool scales_clock() {
+    const std::string governor =
+        first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+    return !governor.empty() && governor != "performance";
+}
+
 std::string local_time() {
     const std::time_t now = std::time(nullptr);
     std::tm parts{};
@@ -114,6 +121,7 @@ Machine describe_machine(simd::Isa kernels, shadow::TraceIsa trace) {
             .host = host_name(),
             .date = local_time(),
             .processors = parallel::default_thread_count(),
+            .is_scaling = scales_clock(),
             .megahertz = number<double>(entry("/proc/cpuinfo", "cpu MHz")),
             .kernel_isa = std::string(simd::name(kernels)),
             .trace_isa = name(trace),

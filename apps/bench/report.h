@@ -74,13 +74,14 @@ struct SceneResult {
 struct Machine {
     std::string processor;  // "AMD EPYC"
     std::string host;
-    std::string date;        // ISO 8601, local time with offset
-    int processors = 0;      // that this process may use
-    double megahertz = 0;    // as the system tells; 0 if it does not
-    std::string kernel_isa;  // of penumbra's kernels: "avx512"
-    std::string trace_isa;   // of the ray tracer, both in frames and limits
-    std::string software;    // "penumbra 0.1.0"
-    std::string counters;    // "available", or why there are none
+    std::string date;         // ISO 8601, local time with offset
+    int processors = 0;       // that this process may use
+    bool is_scaling = false;  // may the system change the processors' clock to save power?
+    double megahertz = 0;     // as the system tells; 0 if it does not
+    std::string kernel_isa;   // of penumbra's kernels: "avx512"
+    std::string trace_isa;    // of the ray tracer, both in frames and limits
+    std::string software;     // "penumbra 0.1.0"
+    std::string counters;     // "available", or why there are none
     struct Cache {
         int level = 0;
         std::string type;  // "Data", "Instruction", "Unified"
