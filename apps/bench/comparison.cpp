@@ -158,7 +158,7 @@ class Comparer {
             pass.probability = corrected[i];
             pass.strength = shift_strength(candidates_[i].values, old_count);
             const bool is_certain =
-                std::max(pass.probability, pass.rank_probability) <= kFalseAlarms;
+                pass.probability <= kFalseAlarms && pass.rank_probability <= kRankLevel;
             const bool is_large =
                 std::abs(pass.change) >= kLeastChange && pass.strength >= kLeastStrength;
             if (is_certain && is_large)

@@ -15,6 +15,8 @@ namespace penumbra::bench {
 inline constexpr int kFewestLaunches = 5;
 // At most this often anything at all is reported where nothing has changed.
 inline constexpr double kFalseAlarms = 0.01;
+// And the rank test of the pass alone must refute at this level that nothing changed.
+inline constexpr double kRankLevel = 0.05;
 inline constexpr double kIntervalConfidence = 0.95;
 // A smaller change is not reported, however certain: not even the same program keeps its fractions
 // closer than that from one hour to the next.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/bench/csv.h"
+#include "apps/bench/html_page.h"
 #include "apps/bench/report_reader.h"
 #include "apps/bench/table.h"
 #include "apps/cli/bench_compare.h"
@@ -38,6 +39,7 @@ void require_files_of_their_own(const BenchOptions& options) {
     if (!options.json.empty()) outputs.emplace_back("--json", options.json);
     if (!options.csv.empty()) outputs.emplace_back("--csv", options.csv);
     if (!options.trace.empty()) outputs.emplace_back("--trace", options.trace);
+    if (!options.html.empty()) outputs.emplace_back("--html", options.html);
     std::vector<std::filesystem::path> inputs{options.scenes.begin(), options.scenes.end()};
     for (const std::string& report : {options.compare, options.from, options.calls_of})
         if (!report.empty()) inputs.emplace_back(report);
@@ -66,6 +68,8 @@ void write_files(const BenchOptions& options, const Results& results) {
     if (!options.json.empty())
         image::write_file_atomically(options.json, benchmark_json(report, comparison) + "\n");
     if (!options.csv.empty()) image::write_file_atomically(options.csv, bench::csv(report));
+    if (!options.html.empty())
+        image::write_file_atomically(options.html, bench::html_page(report, comparison));
     if (!options.trace.empty() && report.launches == 1)
         image::write_file_atomically(
             options.trace, profile::chrome_trace(results.recording.profile, "penumbra bench"));

@@ -88,6 +88,11 @@ void declare_output(CLI::App& command, BenchOptions& o) {
                     "Write what each thread did in the last repetitions, for ui.perfetto.dev or "
                     "chrome://tracing")
         ->type_name("FILE.json");
+    command
+        .add_option("--html", o.html,
+                    "Write a page that needs nothing but itself: how the passes scale, and bars "
+                    "against the limits")
+        ->type_name("FILE.html");
 }
 
 void declare_execution(CLI::App& command, BenchOptions& o) {

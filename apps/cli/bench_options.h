@@ -19,7 +19,7 @@ struct BenchOptions {
     int warmups = 2;
     int repetitions = 11;
     int launches = 0;  // 0: as is fit
-    std::string json, csv, trace;
+    std::string json, csv, trace, html;
     std::string from, calls_of, compare;
     std::optional<double> fail_slower;
 };
