@@ -42,6 +42,7 @@ Machine read_machine(const Node& context) {
                     .host = context.require("host_name").text(),
                     .date = context.require("date").text(),
                     .processors = context.require("num_cpus").integer(1, kMostInt),
+                    .is_scaling = context.require("cpu_scaling_enabled").boolean(),
                     .megahertz = context.require("mhz_per_cpu").number(),
                     .kernel_isa = context.require("kernel_isa").text(),
                     .trace_isa = context.require("trace_isa").text(),

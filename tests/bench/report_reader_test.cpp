@@ -86,6 +86,7 @@ TEST_CASE("a report is read as it was written: machine, scenes, runs, passes, re
     const Report report = parse_report("old.json", document().dump());
     CHECK(report.machine.processor == "AMD EPYC");
     CHECK(report.machine.caches[0].bytes == 32768);
+    CHECK(report.machine.is_scaling);
     CHECK(report.machine.load == std::vector<double>{0.5, 1.25});
     CHECK(report.launches == 2);
     REQUIRE(report.scenes.size() == 1);
