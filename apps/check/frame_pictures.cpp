@@ -77,9 +77,10 @@ std::string frame_pictures(const FrameOutcome& frame) {
     if (frame.comparison) {
         const std::string viewers = diff::html_viewers(*frame.comparison);
         html += diff::html_failures(*frame.comparison);
-        if (frame.verdict != Verdict::kPassed || !viewers.empty())
-            html += diff::html_metrics(*frame.comparison);
-        if (!viewers.empty()) return html + viewers;
+        if (!viewers.empty())
+            return html + viewers +
+                   fmt::format("<details><summary>all numbers</summary>{}</details>\n",
+                               diff::html_metrics(*frame.comparison));
     }
     return html + single_picture(frame);
 }
