@@ -64,6 +64,16 @@ class Comparer {
         note("instruction set of the ray tracer", then.trace_isa, now.trace_isa);
         note("software", then.software, now.software);
         note("repetitions", old_.repetitions, new_.repetitions);
+        add_load("old report", then);
+        add_load("new report", now);
+    }
+
+    // Who else was there may have slowed down one pass and not its limit.
+    void add_load(const char* which, const Machine& machine) {
+        if (!machine.load.empty() && machine.load.front() > 0.5 * machine.processors)
+            result_.differences.push_back(
+                fmt::format("{}: others kept {:.1f} of {} processors busy when it began", which,
+                            machine.load.front(), machine.processors));
     }
 
     static const SceneResult* find_scene(const Report& report, const std::string& name) {
@@ -118,8 +128,13 @@ class Comparer {
             else if (before->limit != pass.limit)
                 leave_out(name, "measured against another limit");
             else
-                add_pass(name, {.scene = scene.name, .threads = now.threads, .pass = pass.name},
-                         steadiest_values(*before, pass));
+                add_pass(name,
+                         {.scene = scene.name,
+                          .threads = now.threads,
+                          .pass = pass.name,
+                          .old_fraction = summarize(fractions(*before)).median,
+                          .new_fraction = summarize(fractions(pass)).median},
+                         steadiest_values(then, now, pass.name));
             if (before) note(name + ": limit", before->limit_call, pass.limit_call);
         }
     }
@@ -127,11 +142,7 @@ class Comparer {
     void add_pass(const std::string& name, PassComparison shown, const LaunchValues& values) {
         if (values.then.empty() || values.now.empty())
             return leave_out(name, "too short for the clock");
-        const auto fraction = [](const std::vector<double>& logarithms) {
-            return std::exp(-summarize(logarithms).median);
-        };
-        shown.old_fraction = fraction(values.then);
-        shown.new_fraction = fraction(values.now);
+        shown.reference = values.reference;
         const Shift shift = hodges_lehmann(values.then, values.now, kIntervalConfidence);
         shown.change = std::expm1(shift.estimate);
         shown.low = std::expm1(shift.low);

@@ -24,7 +24,7 @@ inline constexpr double kLeastChange = 0.02;
 
 // Nor is one below so many times what two launches of the same program typically differ by: the
 // neighbours of one hour are not those of another.
-inline constexpr double kLeastStrength = 2.5;
+inline constexpr double kLeastStrength = 2;
 
 enum class Verdict { kNoChange, kSlower, kFaster };
 [[nodiscard]] std::string name(Verdict verdict);  // "", "SLOWER", "faster"
@@ -33,7 +33,8 @@ struct PassComparison {
     std::string scene;
     int threads = 0;
     std::string pass;
-    double old_fraction = 0, new_fraction = 0;  // of the limit, medians over the launches
+    double old_fraction = 0, new_fraction = 0;  // of its limit, medians over all repetitions
+    LimitKind reference = LimitKind::kNone;     // the limit that the change refers to
     // Of the pass's time where the limit's stays the same, 0.05 is 5 % slower: the estimate and its
     // interval.
     double change = 0, low = 0, high = 0;
@@ -45,7 +46,7 @@ struct PassComparison {
 
 struct Comparison {
     int old_launches = 0, new_launches = 0;
-    std::vector<std::string> differences;  // of the machines and settings, in words
+    std::vector<std::string> differences;  // of machines, settings and load, in words
     std::vector<std::string> left_out;     // what could not be compared, and why
     std::vector<PassComparison> passes;
     double least_probability = 0;  // that so many launches can show; above kFalseAlarms: nothing

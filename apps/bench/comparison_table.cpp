@@ -23,7 +23,7 @@ std::string probability(double value) {
 
 void append_notes(const Comparison& comparison, std::string& text) {
     for (const std::string& difference : comparison.differences)
-        append(text, "  differs: {}\n", difference);
+        append(text, "  note: {}\n", difference);
     for (const std::string& reason : comparison.left_out)
         append(text, "  not compared: {}\n", reason);
     if (comparison.least_probability > kFalseAlarms)
@@ -34,11 +34,11 @@ void append_notes(const Comparison& comparison, std::string& text) {
 }
 
 void append_row(const PassComparison& pass, std::string& text) {
-    append(text, "  {:<11} {:>9.3f} {:>9.3f} {:>9} {:>20} {:>9} {:>9} {:>9.1f}  {}\n", pass.pass,
-           pass.old_fraction, pass.new_fraction, percent(pass.change),
+    append(text, "  {:<11} {:>9.3f} {:>9.3f} {:>9} {:>20} {:>9} {:>9} {:>9.1f}  {:<13} {}\n",
+           pass.pass, pass.old_fraction, pass.new_fraction, percent(pass.change),
            fmt::format("{} to {}", percent(pass.low), percent(pass.high)),
            probability(pass.rank_probability), probability(pass.probability), pass.strength,
-           name(pass.verdict));
+           name(pass.reference), name(pass.verdict));
 }
 
 int count(const Comparison& comparison, Verdict verdict) {
@@ -59,9 +59,9 @@ std::string comparison_table(const Comparison& comparison) {
     for (const PassComparison& pass : comparison.passes) {
         if (!above || above->scene != pass.scene || above->threads != pass.threads)
             append(text,
-                   "\n  {}, {} thread{}\n  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9} {:>9}\n",
+                   "\n  {}, {} thread{}\n  {:<11} {:>9} {:>9} {:>9} {:>20} {:>9} {:>9} {:>9}  {}\n",
                    pass.scene, pass.threads, pass.threads == 1 ? "" : "s", "of limit:", "then",
-                   "now", "change", "95 % interval", "p alone", "p of all", "strength");
+                   "now", "change", "95 % interval", "p alone", "p of all", "strength", "against");
         append_row(pass, text);
         above = &pass;
     }

@@ -172,7 +172,7 @@ std::string comparison_notes(const Comparison& comparison) {
         "limit's stays the same, with its 95 % interval.</p><ul>",
         comparison.old_launches, comparison.new_launches);
     for (const std::string& difference : comparison.differences)
-        append(html, "<li>differs: {}</li>", html_escaped(difference));
+        append(html, "<li>note: {}</li>", html_escaped(difference));
     for (const std::string& reason : comparison.left_out)
         append(html, "<li>not compared: {}</li>", html_escaped(reason));
     for (const PassComparison& pass : comparison.passes)

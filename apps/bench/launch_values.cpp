@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "core/error.h"
+
 namespace penumbra::bench {
 namespace {
 
@@ -42,14 +44,21 @@ double spread(const LaunchValues& values) {
     return differences.empty() ? 0 : low(std::move(differences), 0.5);
 }
 
+const PassResult* find_primary_rays(const ThreadRun& run) {
+    for (const PassResult& pass : run.passes)
+        if (pass.limit == LimitKind::kPrimaryRays && pass.parts.empty()) return &pass;
+    return nullptr;
+}
+
 }  // namespace
 
-std::vector<double> launch_values(const PassResult& pass, Digest digest) {
+std::vector<double> launch_values(const PassResult& pass, const PassResult& reference,
+                                  Digest digest) {
     std::map<int, Times> launches;
-    for (const Sample& sample : pass.samples) {
-        Times& times = launches[sample.launch];
-        times.pass.push_back(sample.milliseconds);
-        times.limit.push_back(sample.limit_milliseconds);
+    for (std::size_t i = 0; i < pass.samples.size(); ++i) {
+        Times& times = launches[pass.samples[i].launch];
+        times.pass.push_back(pass.samples[i].milliseconds);
+        times.limit.push_back(reference.samples[i].limit_milliseconds);
     }
     std::vector<double> values;
     for (const auto& [launch, times] : launches) {
@@ -60,17 +69,28 @@ std::vector<double> launch_values(const PassResult& pass, Digest digest) {
     return values;
 }
 
-LaunchValues steadiest_values(const PassResult& then, const PassResult& now) {
+LaunchValues steadiest_values(const ThreadRun& then, const ThreadRun& now,
+                              const std::string& pass) {
+    const PassResult* const before = find(then, pass);
+    const PassResult* const after = find(now, pass);
+    PENUMBRA_ASSERT(before && after, "pass = {}", pass);
     LaunchValues best;
     double least = std::numeric_limits<double>::infinity();
-    for (const Digest digest : {Digest::kMedianRatio, Digest::kLowDeciles, Digest::kLowest}) {
-        LaunchValues values{launch_values(then, digest), launch_values(now, digest)};
-        if (values.then.empty() || values.now.empty()) continue;
-        const double spread_here = spread(values);
-        if (spread_here >= least) continue;
-        least = spread_here;
-        best = std::move(values);
-    }
+    const auto consider = [&](const PassResult& old_limit, const PassResult& new_limit) {
+        for (const Digest digest : {Digest::kMedianRatio, Digest::kLowDeciles, Digest::kLowest}) {
+            LaunchValues values{launch_values(*before, old_limit, digest),
+                                launch_values(*after, new_limit, digest), new_limit.limit};
+            if (values.then.empty() || values.now.empty()) continue;
+            const double spread_here = spread(values);
+            if (spread_here >= least) continue;
+            least = spread_here;
+            best = std::move(values);
+        }
+    };
+    consider(*before, *after);
+    const PassResult* const old_rays = find_primary_rays(then);
+    const PassResult* const new_rays = find_primary_rays(now);
+    if (old_rays && new_rays) consider(*old_rays, *new_rays);
     return best;
 }
 

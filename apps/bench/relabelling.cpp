@@ -12,9 +12,10 @@ namespace {
 // Which launches are called new.
 using Labels = std::vector<char>;
 
-constexpr double kMostLabellings = 20000;
-constexpr double kFewestLabellings = 4000;
-constexpr double kMostDifferences = 1e8;  // of all quantities and labellings: about a second
+// Of many, so many: the deviation of a probability of 0.01 is then 0.001.
+constexpr double kMostLabellings = 8000;
+constexpr double kFewestLabellings = 3000;
+constexpr double kMostDifferences = 1e7;  // of all quantities and labellings
 
 double count_labellings(std::size_t old_count, std::size_t new_count) {
     double ways = 1;

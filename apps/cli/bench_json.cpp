@@ -169,6 +169,7 @@ ordered_json comparison_entry(const bench::Comparison& comparison) {
                           {"old_fraction_of_limit", pass.old_fraction},
                           {"fraction_of_limit", pass.new_fraction},
                           {"change", pass.change},
+                          {"change_against", bench::name(pass.reference)},
                           {"change_low", number(pass.low)},
                           {"change_high", number(pass.high)},
                           {"probability_alone", pass.rank_probability},
