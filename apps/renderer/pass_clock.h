@@ -24,8 +24,9 @@ class PassClock {
         y_ = tile.y0;
         begin_ = profile::now();
     }
-    // The time since the tile began, or since the last call, was spent in this pass.
-    void end(Pass pass) {
+    // The time since the tile began, or since the last call, was spent in this pass; on so many
+    // rays, if it is about rays.
+    void end(Pass pass, profile::Argument rays = {}) {
         if (on_pass_) (*on_pass_)(pass);
         const profile::Nanoseconds end = profile::now();
         seconds_[pass] += 1e-9 * static_cast<double>(end - begin_);
@@ -35,6 +36,7 @@ class PassClock {
                          .end = end,
                          .first = {"x", x_},
                          .second = {"y", y_},
+                         .third = rays,
                          .kind = profile::Kind::kPass});
         begin_ = end;
     }

@@ -113,10 +113,11 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
             if (execution.on_rays) (*execution.on_rays)(tile, tile_scratch.rays);
             count.clock.end(Pass::kRays);
             shadow::trace(occluders, execution.visibility, tile_scratch.rays);
-            count.clock.end(Pass::kTrace);
+            const std::uint64_t traced = count_rays(tile_scratch.rays);
+            count.clock.end(Pass::kTrace, {"rays", static_cast<std::int64_t>(traced)});
             shadow::accumulate(tile_scratch.rays, context.isa, tile_scratch.sums());
             count.clock.end(Pass::kRays);
-            count.shadow_rays += count_rays(tile_scratch.rays);
+            count.shadow_rays += traced;
         }
     }
 }

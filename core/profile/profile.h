@@ -36,7 +36,7 @@ enum class Kind : std::uint8_t {
 struct Slice {
     const char* name = nullptr;
     Nanoseconds begin = 0, end = 0;
-    Argument first, second;
+    Argument first, second, third;
     Kind kind = Kind::kPhase;
 };
 

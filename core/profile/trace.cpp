@@ -53,7 +53,8 @@ std::string microseconds(Nanoseconds time) {
 void append_arguments(Text& text, const Slice& slice) {
     if (!slice.first.key) return;
     append(text, R"(,"args":{{"{}":{})", slice.first.key, slice.first.value);
-    if (slice.second.key) append(text, R"(,"{}":{})", slice.second.key, slice.second.value);
+    for (const Argument& more : {slice.second, slice.third})
+        if (more.key) append(text, R"(,"{}":{})", more.key, more.value);
     append(text, "}}");
 }
 

@@ -106,6 +106,9 @@ places = {(e["args"]["x"], e["args"]["y"]) for e in slices if e["name"] == "rast
 assert places == {(x, y) for x in range(0, 320, 64) for y in range(0, 192, 64)}, places
 for name in ("resolve", "shade", "trace", "deposit"):
     assert sum(e["name"] == name and e["cat"] == "pass" for e in slices) == 3 * 15, name
+stats = json.load(open("s.json"))
+traced = sum(e["args"]["rays"] for e in slices if e["name"] == "trace" and e["cat"] == "pass")
+assert traced == sum(f["shadow_rays"] for f in stats["frames"]), traced
 for name in ("evaluate", "setup", "tiles", "noise", "filter"):
     assert sum(e["name"] == name and e["cat"] == "phase" for e in slices) == 3, name
 PYTHON

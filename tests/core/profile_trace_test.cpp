@@ -31,6 +31,7 @@ TEST_CASE("a slice becomes a complete event in microseconds since the first slic
                           .end = 5'000'001'250,
                           .first = {"x", 64},
                           .second = {"y", -128},
+                          .third = {"rays", 4096},
                           .kind = Kind::kPass});
     const json trace = trace_of(profile);
     const json* const event = find(trace, "trace");
@@ -40,7 +41,7 @@ TEST_CASE("a slice becomes a complete event in microseconds since the first slic
     CHECK((*event)["ts"].get<double>() == doctest::Approx(0.25));
     CHECK((*event)["dur"].get<double>() == doctest::Approx(1.0));
     CHECK((*event)["tid"] == 1);
-    CHECK((*event)["args"] == json{{"x", 64}, {"y", -128}});
+    CHECK((*event)["args"] == json{{"x", 64}, {"y", -128}, {"rays", 4096}});
     CHECK((*find(trace, "frame"))["dur"].get<double>() == doctest::Approx(2.001));
     CHECK_FALSE(find(trace, "frame")->contains("args"));
 }
