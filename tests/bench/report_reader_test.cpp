@@ -37,6 +37,7 @@ ordered_json document() {
         {"host_name", "farm"},
         {"num_cpus", 2},
         {"mhz_per_cpu", 2600},
+        {"cpu_scaling_enabled", true},
         {"caches", {{{"type", "Data"}, {"level", 1}, {"size", 32768}, {"num_sharing", 1}}}},
         {"load_avg", {0.5, 1.25}},
         {"software", "penumbra 0.1.0"},
