@@ -1,11 +1,5 @@
 #include "shadow/build_tree.h"
 
-#if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
-#else
-#include <embree4/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "shadow/embree.h"
 
 namespace penumbra::shadow {
 namespace {

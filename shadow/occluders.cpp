@@ -1,13 +1,5 @@
 #include "shadow/occluders.h"
 
-// Embree 3 has streams of rays, 4 has packets alone. Beside this file, only build_tree.cpp knows
-// it.
-#if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
-#else
-#include <embree4/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -15,6 +7,7 @@
 #include "core/error.h"
 #include "core/simd/isa.h"
 #include "shadow/cutout_geometry.h"
+#include "shadow/embree.h"
 #include "shadow/exact_occluders.h"
 #include "shadow/triangle_extent.h"
 

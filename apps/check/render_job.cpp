@@ -23,11 +23,14 @@ std::vector<std::string> render_command(const Check& check, const CheckSettings&
                                         const RenderSettings& how, const fs::path& stem) {
     RenderValues values = settings.render;
     for (const auto& [option, value] : how.overrides) values[option] = value;
-    const fs::path& scene = settings.scene.empty() ? check.scene : settings.scene;
-    std::vector<std::string> command{
-        how.program.string(), "render",
-        scene.string(),       fmt::format("--output={}.####.exr", stem.string()),
-        "--progress=none",    fmt::format("--threads={}", how.threads)};
+    std::string scene = (settings.scene.empty() ? check.scene : settings.scene).string();
+    if (scene.starts_with('-')) scene.insert(0, "./");  // a file, not an option
+    std::vector<std::string> command{how.program.string(),
+                                     "render",
+                                     scene,
+                                     fmt::format("--output={}.####.exr", stem.string()),
+                                     "--progress=none",
+                                     fmt::format("--threads={}", how.threads)};
     for (const RenderOption& option : how.options) {
         const auto value = values.find(option.name);
         if (value == values.end()) continue;

@@ -44,6 +44,7 @@ void require_files_of_their_own(const BenchOptions& options) {
     for (const std::string& report : {options.compare, options.from, options.calls_of})
         if (!report.empty()) inputs.emplace_back(report);
     require_distinct(outputs, inputs);
+    require_endings(outputs);
 }
 
 // What goes on, on one line of a terminal; nothing elsewhere.

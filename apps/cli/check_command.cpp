@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 #include "apps/check/html_report.h"
@@ -122,20 +123,35 @@ void require_files_of_their_own(const CheckOptions& options,
     for (const check::Check& each : checks) {
         inputs.push_back(each.scene);
         inputs.push_back(each.settings);
+        for (const fs::path& golden : check::existing_goldens(each.name)) inputs.push_back(golden);
     }
     std::erase(inputs, fs::path{});
     require_distinct(outputs, inputs);
+    require_endings(outputs);
 }
 
+// One that cannot be written does not keep the others from it.
 void write_reports(const CheckOptions& options, const check::Invocation& invocation,
                    const std::vector<CheckOutcome>& outcomes, double seconds) {
-    if (!options.html.empty())
-        check::write_html_report(html_file(options.html), outcomes, invocation);
-    if (!options.junit.empty())
+    std::exception_ptr first_failure;
+    const auto attempt = [&first_failure](const std::string& file, const auto& write) {
+        if (file.empty()) return;
+        try {
+            write();
+        } catch (...) {
+            if (!first_failure) first_failure = std::current_exception();
+        }
+    };
+    attempt(options.junit, [&] {
         image::write_file_atomically(options.junit, check::junit_xml(outcomes, seconds));
-    if (!options.json.empty())
+    });
+    attempt(options.json, [&] {
         image::write_file_atomically(
             options.json, check_json(outcomes, check::accept_command(invocation, outcomes)));
+    });
+    attempt(options.html,
+            [&] { check::write_html_report(html_file(options.html), outcomes, invocation); });
+    if (first_failure) std::rethrow_exception(first_failure);
 }
 
 int run(const CheckOptions& options, const std::string& program) {

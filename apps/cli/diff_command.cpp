@@ -107,11 +107,30 @@ void check_ignored(const diff::CompareSettings& settings,
         throw InputError(fmt::format("--ignore-layers: no image has a layer \"{}\"", layer));
 }
 
+void require_files_of_their_own(const DiffOptions& options,
+                                const std::vector<diff::FilePair>& pairs) {
+    std::vector<PlannedFile> outputs;
+    if (!options.html.empty()) outputs.emplace_back("--html", options.html);
+    if (!options.json.empty()) outputs.emplace_back("--json", options.json);
+    std::vector<std::filesystem::path> inputs;
+    if (!options.mask.empty()) inputs.emplace_back(options.mask);
+    for (const diff::FilePair& pair : pairs) {
+        inputs.emplace_back(pair.reference);
+        inputs.emplace_back(pair.test);
+        if (!options.heatmap.empty())
+            outputs.emplace_back("--heatmap",
+                                 heatmap_path(options.heatmap, pair, options.reference));
+    }
+    require_distinct(outputs, inputs);
+    require_endings(outputs);
+}
+
 int run_diff(const DiffOptions& options) {
     std::optional<diff::Mask> mask;
     const diff::CompareSettings settings = interpret(options, mask);
     const std::vector<diff::FilePair> pairs = diff::find_pairs(options.reference, options.test);
     check_heatmap(options, pairs.size());
+    require_files_of_their_own(options, pairs);
     check_ignored(settings, pairs);
     const parallel::Arena arena(options.threads > 0 ? options.threads
                                                     : parallel::default_thread_count());

@@ -13,8 +13,9 @@ namespace {
 // One name for a file, whatever links and dots lead to it.
 std::string identity(const std::filesystem::path& path) {
     std::error_code error;
-    const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
-    return (error ? std::filesystem::absolute(path, error) : canonical).string();
+    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(absolute, error);
+    return (error ? absolute.lexically_normal() : canonical).string();
 }
 
 CLI::Validator only_said(const std::vector<std::string>& words, const char* after) {
@@ -56,14 +57,27 @@ void refuse_empty_values(const CLI::App& command) {
 void require_distinct(const std::vector<PlannedFile>& outputs,
                       const std::vector<std::filesystem::path>& inputs) {
     std::map<std::string, std::string> taken;  // identity -> who has it
-    for (const std::filesystem::path& input : inputs)
-        taken.emplace(identity(input), "an input of the scene");
+    for (const std::filesystem::path& input : inputs) taken.emplace(identity(input), "an input");
     for (const auto& [option, path] : outputs) {
         const auto [place, is_new] = taken.emplace(identity(path), "written by " + option);
         if (!is_new)
             throw InputError(fmt::format(
                 "{}: expected a file of its own, but {} is {}", option, path.string(),
                 place->second == "written by " + option ? "named twice" : place->second));
+    }
+}
+
+void require_endings(const std::vector<PlannedFile>& reports) {
+    static const std::map<std::string, std::string> kEndings = {{"--html", ".html"},
+                                                                {"--json", ".json"},
+                                                                {"--trace", ".json"},
+                                                                {"--junit", ".xml"},
+                                                                {"--csv", ".csv"}};
+    for (const auto& [option, path] : reports) {
+        const auto ending = kEndings.find(option);
+        if (ending != kEndings.end() && !path.string().ends_with(ending->second))
+            throw InputError(fmt::format("{}: expected a name that ends in {}, got \"{}\"", option,
+                                         ending->second, path.string()));
     }
 }
 

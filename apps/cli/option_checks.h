@@ -28,4 +28,8 @@ using PlannedFile = std::pair<std::string, std::filesystem::path>;
 void require_distinct(const std::vector<PlannedFile>& outputs,
                       const std::vector<std::filesystem::path>& inputs);
 
+// Throws InputError unless reports are named after what they hold (--html: .html, --junit: .xml,
+// ...): a slip of the pen must not replace a picture or a model that no list of inputs knows.
+void require_endings(const std::vector<PlannedFile>& reports);
+
 }  // namespace penumbra::cli

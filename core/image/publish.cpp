@@ -38,6 +38,14 @@ void refuse_odd_targets(const std::filesystem::path& target) {
     }
 }
 
+// What a link points to is written, not the link: it may be one of the system's, or of a store.
+std::filesystem::path followed(std::filesystem::path target) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(target, error)) return target;
+    std::filesystem::path end = std::filesystem::weakly_canonical(target, error);
+    return error ? target : end;
+}
+
 // Does the name still mean the file that was opened, and not one that somebody renamed meanwhile?
 bool still_names(const std::filesystem::path& path, int descriptor) {
     struct stat by_name {
@@ -83,7 +91,7 @@ void flush_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-PendingFile::PendingFile(std::filesystem::path target) : target_(std::move(target)) {
+PendingFile::PendingFile(std::filesystem::path target) : target_(followed(std::move(target))) {
     partial_ = target_;
     partial_ += ".part";
     create_folder(target_.parent_path());

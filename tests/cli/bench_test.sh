@@ -133,6 +133,7 @@ check "no repetitions" refuses 2 "--repetitions" "$penumbra" bench --repetitions
 check "a size that is none" refuses 2 "--size" "$penumbra" bench --size 96
 check "a size with more behind it" refuses 2 "--size" "$penumbra" bench --size 96x64x3
 check "one file for two reports" refuses 2 "--csv" "$penumbra" bench --json b.txt --csv b.txt
+check "a report on a model" refuses 2 ".csv" "$penumbra" bench shot.json --csv model.obj
 check "a report on the scene" refuses 2 "--json" "$penumbra" bench shot.json --json shot.json
 check "a folder that cannot be written" refuses 3 "/proc/b.json" "$penumbra" bench shot.json --size 64x64 --threads 1 \
     --repetitions 1 --json /proc/b.json

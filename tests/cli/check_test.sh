@@ -255,6 +255,21 @@ else
 fi
 check "a report that cannot be written" refuses 3 "nope" "$penumbra" check a --junit /proc/nope/r.xml
 check "a report in place of a scene is refused" refuses 2 "--json" "$penumbra" check a --json a/shot.json
+check "or of a golden" refuses 2 "own" "$penumbra" check a --json a/shot.golden.exr
+check "or of a model, whose name is no report's" refuses 2 ".html" "$penumbra" check a --html model.obj
+a_failing_report_does_not_keep_others() {
+    "$penumbra" check a --html /proc/nope/r.html --junit still.xml --json still.json >stdout 2>stderr
+    [ -s still.xml ] && [ -s still.json ] && grep -q "nope" stderr
+}
+check "one that cannot be written does not keep the others from it" a_failing_report_does_not_keep_others
+a_scene_may_begin_with_a_dash() {
+    mkdir dash && cp -r a/. dash/ && cd dash && mv shot.json ./-shot.json && mv shot.golden.exr ./-shot.golden.exr &&
+        rm -f ./*.check.json && "$penumbra" check ./-shot.json >../stdout 2>../stderr
+    local status=$?
+    cd ..
+    ! grep -q "no such option" stderr && [ "$status" -le 1 ]
+}
+check "a scene's name may begin with a dash" a_scene_may_begin_with_a_dash
 check "two reports in one file are refused" refuses 2 "--junit" "$penumbra" check a --json r --junit r
 check "an empty name is refused" refuses 2 "--html" "$penumbra" check a --html ""
 

@@ -121,6 +121,9 @@ check "a masked pixel may differ" verdict 0 - ref.exr one_pixel.exr --mask mask.
 check "and be no number" verdict 0 - ref.exr nan.exr --mask mask.png
 check "a masked pixel leaks into no neighbour" verdict 0 - ref.exr one_pixel.exr --mask mask.png --fail-above flip=0 --fail-above hdr-flip=0 --fail-below ssim=1
 check "other pixels count under a mask" verdict 1 differs ref.exr one_ulp.exr --mask mask.png
+check "a report on an image" refuses 2 "own" "$penumbra" diff ref.exr same.exr --json ./ref.exr
+check "a map on an image" refuses 2 "--heatmap" "$penumbra" diff ref.exr same.exr --heatmap same.exr
+check "a report with another's name" refuses 2 ".html" "$penumbra" diff ref.exr same.exr --html report.txt
 check "no layer of that name" refuses 2 "--ignore-layers" "$penumbra" diff ref.exr same.exr --ignore-layers depht
 check "max below" refuses 2 "use --fail-above" "$penumbra" diff ref.exr same.exr --fail-below max=1
 check "ssim above" refuses 2 "use --fail-below" "$penumbra" diff ref.exr same.exr --fail-above ssim=1

@@ -55,6 +55,7 @@ check "a dry run names the files and renders nothing" bash -c \
 check "progress as JSON" bash -c "'$penumbra' render shot.json -f 1 -o i.exr --progress json | grep -q '\"done\":1'"
 check "progress for Open Job Description" bash -c \
     "'$penumbra' render shot.json -f 1 -o i.exr --progress openjd | grep -q 'openjd_progress: 100'"
+check "one file under two spellings is one file" refuses 2 "--stats" "$penumbra" render -f 1 -o ./two.exr --stats two.exr
 check "statistics are written" render -f 1 -o i.exr --stats stats.json
 check "with rays" grep -q '"shadow_rays": [1-9]' stats.json
 

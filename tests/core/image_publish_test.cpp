@@ -126,6 +126,15 @@ TEST_CASE("a full disk is found out, and leaves the old file alone") {
     CHECK_FALSE(std::filesystem::exists(folder / "frame.part"));
 }
 
+TEST_CASE("a link stays, and what it points to is written") {
+    const TemporaryFolder folder;
+    write_file_atomically(folder / "file.json", std::string_view("old"));
+    std::filesystem::create_symlink("file.json", folder / "link.json");
+    write_file_atomically(folder / "link.json", std::string_view("new"));
+    CHECK(std::filesystem::is_symlink(folder / "link.json"));
+    CHECK(text_of(folder / "file.json") == "new");
+}
+
 TEST_CASE("targets that cannot be files say why") {
     const TemporaryFolder folder;
     CHECK_THROWS_WITH_AS(write_file_atomically(folder / "", std::string_view("x")),
