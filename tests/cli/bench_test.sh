@@ -3,18 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 folder=$source_dir/tests/cli
 
-cat >quad.obj <<'OBJ'
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-v -0.3 0.3 -0.3
-v 0.3 0.3 -0.3
-v 0.3 0.3 0.3
-v -0.3 0.3 0.3
-f 4 3 2 1
-f 8 7 6 5
-OBJ
+write_quads quad.obj
 cat >shot.json <<'JSON'
 {
     "film": { "size": [320, 192] },

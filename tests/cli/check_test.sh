@@ -5,18 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 # scene NAME RADIANCE: two quads under a light, a moving camera.
 scene() {
     mkdir -p "$(dirname "$1")"
-    cat >"$(dirname "$1")/quads.obj" <<'OBJ'
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-v -0.3 0.3 -0.3
-v 0.3 0.3 -0.3
-v 0.3 0.3 0.3
-v -0.3 0.3 0.3
-f 4 3 2 1
-f 8 7 6 5
-OBJ
+    write_quads "$(dirname "$1")/quads.obj"
     cat >"$1.json" <<JSON
 {
     "film": { "size": [96, 64] },

@@ -45,6 +45,22 @@ refuses() {
     fi
 }
 
+# write_quads FILE.obj: a floor of 2 x 2 m and a smaller sheet 0.3 m above it.
+write_quads() {
+    cat >"$1" <<'OBJ'
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+v -0.3 0.3 -0.3
+v 0.3 0.3 -0.3
+v 0.3 0.3 0.3
+v -0.3 0.3 0.3
+f 4 3 2 1
+f 8 7 6 5
+OBJ
+}
+
 finish() {
     echo "$passed passed, $failed failed, $skipped skipped"
     [ "$failed" -eq 0 ]

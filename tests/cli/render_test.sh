@@ -2,18 +2,7 @@
 # `penumbra render` as a user and a script meet it.
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 
-cat >quad.obj <<'OBJ'
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-v -0.3 0.3 -0.3
-v 0.3 0.3 -0.3
-v 0.3 0.3 0.3
-v -0.3 0.3 0.3
-f 4 3 2 1
-f 8 7 6 5
-OBJ
+write_quads quad.obj
 cat >shot.json <<'JSON'
 {
     "film": { "size": [160, 96] },

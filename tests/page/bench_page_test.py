@@ -3,21 +3,9 @@
 import json
 import os
 import subprocess
-import sys
-import tempfile
 
-import webdriver
-
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    if holds:
-        passed += 1
-    else:
-        failed += 1
-        print(f"FAILED: {name}", flush=True)
+import page_test
+from page_test import check
 
 
 def entry(scene, threads, name, launch, milliseconds):
@@ -101,30 +89,21 @@ def check_privacy(browser):
     check("nothing is wider than the window", wide)
 
 
-def main():
-    penumbra = os.path.abspath(sys.argv[1])
-    missing = webdriver.missing_program()
-    if missing:
-        print(f"[skipped] the page of penumbra bench: {missing} is not installed")
-        print("1 passed, 0 failed")
-        return 0
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write_report("old.json", 1)
-        write_report("new.json", 1.2)
-        result = subprocess.run([penumbra, "bench", "--from", "new.json", "--compare", "old.json", "--fail-slower",
-                                 "10", "--html", "page.html"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        check("beyond what is allowed it exits with 1", result.returncode == 1)
-        check("and says which pass", b"room/threads:1/resolve: 20" in result.stderr)
-        with webdriver.Browser() as browser:
-            browser.open(os.path.abspath("page.html"))
-            check_scenes(browser)
-            check_charts(browser)
-            check_comparison(browser)
-            check_privacy(browser)
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
+def make_report(penumbra):
+    write_report("old.json", 1)
+    write_report("new.json", 1.2)
+    result = subprocess.run([penumbra, "bench", "--from", "new.json", "--compare", "old.json", "--fail-slower",
+                             "10", "--html", "page.html"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    check("beyond what is allowed it exits with 1", result.returncode == 1)
+    check("and says which pass", b"room/threads:1/resolve: 20" in result.stderr)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def check_page(browser, *_):
+    browser.open(os.path.abspath("page.html"))
+    check_scenes(browser)
+    check_charts(browser)
+    check_comparison(browser)
+    check_privacy(browser)
+
+
+page_test.run("penumbra bench", make_report, check_page)

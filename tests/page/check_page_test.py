@@ -5,10 +5,9 @@ used; the viewers are those of `penumbra diff` (diff_page_test.py). Usage: check
 import json
 import os
 import subprocess
-import sys
-import tempfile
 
-import webdriver
+import page_test
+from page_test import check
 
 QUADS = """v -1 0 -1
 v 1 0 -1
@@ -21,16 +20,6 @@ v -0.3 0.3 0.3
 f 4 3 2 1
 f 8 7 6 5
 """
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    if holds:
-        passed += 1
-    else:
-        failed += 1
-        print(f"FAILED: {name}", flush=True)
 
 
 def write_scene(name, radiance):
@@ -165,24 +154,4 @@ def check_page(browser, penumbra, printed):
     check("the console has no errors", browser.complaints() == [])
 
 
-def main():
-    penumbra = os.path.abspath(sys.argv[1])
-    missing = webdriver.missing_program()
-    if missing:
-        print(f"[skipped] the page of penumbra check: {missing} is not installed")
-        print("1 passed, 0 failed")
-        return 0
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        printed = make_report(penumbra)
-        try:
-            with webdriver.Browser() as browser:
-                check_page(browser, penumbra, printed)
-        except webdriver.BrowserError as error:
-            check(f"the browser works: {error}", False)
-        os.chdir("/")
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
-
-
-sys.exit(main())
+page_test.run("penumbra check", make_report, check_page)

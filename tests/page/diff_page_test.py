@@ -4,25 +4,14 @@ what the screen shows is compared with what it should show. Usage: diff_page_tes
 
 import os
 import subprocess
-import sys
-import tempfile
 
-import webdriver
+import page_test
+from page_test import check
 from pictures import write_exr, write_png
 
 WIDTH, HEIGHT = 320, 160
 RED, GREEN, BLACK = (255, 0, 0), (0, 255, 0), (0, 0, 0)
 SPOT = (200, 72)  # the pixel in the middle of what differs: 16 x 16 around it
-passed = failed = 0
-
-
-def check(name, holds):
-    global passed, failed
-    if holds:
-        passed += 1
-    else:
-        failed += 1
-        print(f"FAILED: {name}", flush=True)
 
 
 def in_spot(x, y):
@@ -252,27 +241,11 @@ def check_page(browser, file):
     check_privacy(browser)
 
 
-def main():
-    penumbra = os.path.abspath(sys.argv[1])
-    missing = webdriver.missing_program()
-    if missing:
-        print(f"[skipped] the page of penumbra diff: {missing} is not installed")
-        print("1 passed, 0 failed")
-        return 0
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write_images()
-        code = subprocess.run([penumbra, "diff", "ref", "test", "--html", "report.html"],
-                              stdout=subprocess.DEVNULL, timeout=60).returncode
-        check("the images differ", code == 1)
-        try:
-            with webdriver.Browser() as browser:
-                check_page(browser, "report.html")
-        except webdriver.BrowserError as error:
-            check(f"the browser works: {error}", False)
-        os.chdir("/")
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
+def make_report(penumbra):
+    write_images()
+    code = subprocess.run([penumbra, "diff", "ref", "test", "--html", "report.html"],
+                          stdout=subprocess.DEVNULL, timeout=60).returncode
+    check("the images differ", code == 1)
 
 
-sys.exit(main())
+page_test.run("penumbra diff", make_report, lambda browser, *_: check_page(browser, "report.html"))
