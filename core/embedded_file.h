@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace penumbra {
@@ -17,5 +18,9 @@ struct EmbeddedFile {
         return {bytes.begin, static_cast<std::size_t>(bytes.end - bytes.begin)};
     }
 };
+
+// The content of the file with that name, which is one of them.
+[[nodiscard]] std::string_view content_of(std::span<const EmbeddedFile> files,
+                                          std::string_view name);
 
 }  // namespace penumbra

@@ -165,6 +165,18 @@ void occlude_by(RTCScene scene, const RayStream& rays) {
 
 }  // namespace
 
+std::string_view name(TraceIsa isa) {
+    switch (isa) {
+        case TraceIsa::kAvx2:
+            return "avx2";
+        case TraceIsa::kAvx512:
+            return "avx512";
+        case TraceIsa::kAuto:
+            return "auto";
+    }
+    return "";
+}
+
 TraceIsa parse_trace_isa(std::string_view name) {
     if (name == "auto") return TraceIsa::kAuto;
     const bool avx512 = name == "avx512";

@@ -20,6 +20,7 @@ enum class TraceIsa { kAvx2, kAvx512, kAuto };
 
 // "avx2", "avx512" or "auto"; throws InputError for other names and for what the processor lacks.
 [[nodiscard]] TraceIsa parse_trace_isa(std::string_view name);
+[[nodiscard]] std::string_view name(TraceIsa isa);
 
 // Who decides whether a ray meets a triangle.
 enum class HitTest {

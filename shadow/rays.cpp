@@ -1,5 +1,7 @@
 #include "shadow/rays.h"
 
+#include <bit>
+
 #include "core/error.h"
 #include "shadow/rays_kernel.h"
 
@@ -43,6 +45,12 @@ RayScratch::RayScratch()
       weight(make_plane3<float>(kTileSize, kTileSize)),
       packed{tile_plane(), tile_plane(), tile_plane(), tile_plane(),
              tile_plane(), tile_plane(), tile_plane(), tile_plane()} {}
+
+std::uint64_t RayScratch::count_active() const {
+    std::uint64_t count = 0;
+    for (const std::uint64_t row : active) count += static_cast<unsigned>(std::popcount(row));
+    return count;
+}
 
 void generate_rays(const RayInputs& inputs, const LightSample& sample, RayScratch& scratch) {
     PENUMBRA_ASSERT(sample.index >= 0 && sample.index < sample.count, "sample {} of {}",

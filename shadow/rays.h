@@ -29,6 +29,7 @@ struct RayScratch {
     Plane3<float>
         weight;  // BRDF cosine radiance / density, over the number of samples; 0 if inactive
     std::array<std::uint64_t, kTileSize> active{};
+    [[nodiscard]] std::uint64_t count_active() const;
 
     // Written by trace: whether the light is reached; bits of inactive pixels are 0.
     std::array<std::uint64_t, kTileSize> visible{};

@@ -4,33 +4,10 @@
 
 #include <array>
 
+#include "shadow/z_order.h"
+
 namespace penumbra::shadow {
 namespace {
-
-// Rays are packed in squares of this many pixels a side: a row of a square is one 16-byte copy.
-constexpr int kSquare = 4;
-constexpr int kSquaresPerRow = kTileSize / kSquare;
-constexpr int kSquares = kSquaresPerRow * kSquaresPerRow;
-static_assert(kSquaresPerRow == 16);
-
-struct SquarePlace {
-    std::uint8_t x, y;  // pixels
-};
-
-constexpr std::array<SquarePlace, kSquares> squares_in_z_order() {
-    std::array<SquarePlace, kSquares> places{};
-    for (unsigned i = 0; i < kSquares; ++i) {
-        unsigned x = 0, y = 0;
-        for (unsigned bit = 0; bit < 4; ++bit) {
-            x |= ((i >> (2 * bit)) & 1u) << bit;
-            y |= ((i >> (2 * bit + 1)) & 1u) << bit;
-        }
-        places[i] = {static_cast<std::uint8_t>(kSquare * x),
-                     static_cast<std::uint8_t>(kSquare * y)};
-    }
-    return places;
-}
-constexpr std::array<SquarePlace, kSquares> kSquaresInZOrder = squares_in_z_order();
 
 constexpr unsigned kFullRow = (1u << kSquare) - 1;
 constexpr unsigned kFullSquare = (1u << (kSquare * kSquare)) - 1;

@@ -100,18 +100,6 @@ std::string host_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-const char* name(shadow::TraceIsa isa) {
-    switch (isa) {
-        case shadow::TraceIsa::kAvx2:
-            return "avx2";
-        case shadow::TraceIsa::kAvx512:
-            return "avx512";
-        case shadow::TraceIsa::kAuto:
-            return "auto";
-    }
-    return "";
-}
-
 }  // namespace
 
 Machine describe_machine(simd::Isa kernels, shadow::TraceIsa trace) {
@@ -124,7 +112,7 @@ Machine describe_machine(simd::Isa kernels, shadow::TraceIsa trace) {
             .is_scaling = scales_clock(),
             .megahertz = number<double>(entry("/proc/cpuinfo", "cpu MHz")),
             .kernel_isa = std::string(simd::name(kernels)),
-            .trace_isa = name(trace),
+            .trace_isa = std::string(shadow::name(trace)),
             .software = fmt::format("penumbra {}", renderer::version()),
             .counters = "",
             .caches = caches(),

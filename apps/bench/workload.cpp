@@ -1,34 +1,22 @@
 #include "apps/bench/workload.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
-#include <numeric>
 
 #include "core/parallel/tiles.h"
+#include "shadow/z_order.h"
 
 namespace penumbra::bench {
 namespace {
 
 constexpr std::uint64_t kBytesPerRay = 7 * sizeof(float);
 
-// The pixels of a tile in squares of 4 x 4 along a Z curve: the order in which the shadow pass
-// packs its rays, and one in which neighbours share a packet.
+// The pixels of a tile in the order in which the shadow pass packs its rays.
 template <class Body>
 void each_pixel_in_z_order(const Body& body) {
-    constexpr int kSquare = 4;
-    constexpr int kSide = kTileSize / kSquare;
-    for (unsigned i = 0; i < kSide * kSide; ++i) {
-        unsigned column = 0;
-        unsigned row = 0;
-        for (unsigned bit = 0; bit < 4; ++bit) {
-            column |= (i >> (2 * bit) & 1u) << bit;
-            row |= (i >> (2 * bit + 1) & 1u) << bit;
-        }
-        for (int y = 0; y < kSquare; ++y)
-            for (int x = 0; x < kSquare; ++x)
-                body(static_cast<int>(column) * kSquare + x, static_cast<int>(row) * kSquare + y);
-    }
+    for (const shadow::SquarePlace place : shadow::kSquaresInZOrder)
+        for (int y = 0; y < shadow::kSquare; ++y)
+            for (int x = 0; x < shadow::kSquare; ++x) body(place.x + x, place.y + y);
 }
 
 void add_active(const shadow::RayScratch& rays, shadow::RayBatch& batch) {
@@ -61,13 +49,6 @@ std::uint64_t count_covered(const renderer::Film& film) {
         for (int x = film.crop.x0 - film.window.x0; x < film.crop.x1 - film.window.x0; ++x)
             covered += film.coverage.at(x, y) > 0;
     return covered;
-}
-
-std::uint64_t count(const shadow::RayScratch& rays) {
-    return std::accumulate(rays.active.begin(), rays.active.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, std::uint64_t row) {
-                               return sum + static_cast<unsigned>(std::popcount(row));
-                           });
 }
 
 // One tile's, of all its lights and samples.
@@ -106,7 +87,7 @@ Workload record_workload(const Scene& scene, const renderer::ImageSettings& imag
         static_cast<std::size_t>((all.width / kTileSize + 2) * (all.height / kTileSize + 2)));
     const renderer::RayObserver keep = [&](const Tile& tile, const shadow::RayScratch& rays) {
         TileRays& kept = tiles[static_cast<std::size_t>(tile.index)];
-        kept.rays += count(rays);
+        kept.rays += rays.count_active();
         if (tile.index % stride == 0) add_active(rays, kept.batch);
     };
     renderer::ExecutionSettings observed = execution;

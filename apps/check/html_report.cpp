@@ -22,14 +22,6 @@ namespace {
 
 using diff::html_escaped;
 
-std::string_view page_file(std::string_view name) {
-    const auto files = embedded_files();
-    const auto file = std::find_if(files.begin(), files.end(),
-                                   [&](const EmbeddedFile& each) { return each.name == name; });
-    PENUMBRA_ASSERT(file != files.end(), "name = {}", name);
-    return file->content();
-}
-
 std::string command_box(std::string_view label, const std::string& command) {
     if (command.empty()) return "";
     return fmt::format(
@@ -152,7 +144,7 @@ void write_html_report(const std::filesystem::path& target,
         file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     };
     write(diff::html_begin("penumbra check"));
-    write(fmt::format("<style>\n{}</style>\n", page_file("check.css")));
+    write(fmt::format("<style>\n{}</style>\n", content_of(embedded_files(), "check.css")));
     write(filter_bar(outcomes));
     write(command_box("to accept all of this:", accept_command(invocation, outcomes)));
     for (const Verdict verdict : kGravestFirst) {
@@ -161,7 +153,7 @@ void write_html_report(const std::filesystem::path& target,
             if (outcome.verdict() == verdict) write_check(outcome, invocation, file);
     }
     write("</div>\n");
-    write(fmt::format("<script>\n{}</script>\n", page_file("check.js")));
+    write(fmt::format("<script>\n{}</script>\n", content_of(embedded_files(), "check.js")));
     write(diff::html_end());
     file.publish();
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <vector>
 
 #include "apps/renderer/deposit.h"
@@ -21,12 +20,6 @@
 
 namespace penumbra::renderer {
 namespace {
-
-std::uint64_t count_rays(const shadow::RayScratch& rays) {
-    std::uint64_t count = 0;
-    for (const std::uint64_t row : rays.active) count += static_cast<unsigned>(std::popcount(row));
-    return count;
-}
 
 // What one worker counts, on a cache line of its own.
 struct alignas(64) WorkerCounts {
@@ -113,7 +106,7 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
             if (execution.on_rays) (*execution.on_rays)(tile, tile_scratch.rays);
             count.clock.end(Pass::kRays);
             shadow::trace(occluders, execution.visibility, tile_scratch.rays);
-            const std::uint64_t traced = count_rays(tile_scratch.rays);
+            const std::uint64_t traced = tile_scratch.rays.count_active();
             count.clock.end(Pass::kTrace, {"rays", static_cast<std::int64_t>(traced)});
             shadow::accumulate(tile_scratch.rays, context.isa, tile_scratch.sums());
             count.clock.end(Pass::kRays);

@@ -27,16 +27,7 @@ std::string_view name(Denoise denoise) {
 }
 
 std::string_view name_of_tracer(const ImageSettings& image, shadow::TraceIsa isa) {
-    if (image.reproducible) return "exact";  // then no pixel depends on Embree
-    switch (isa) {
-        case shadow::TraceIsa::kAvx2:
-            return "avx2";
-        case shadow::TraceIsa::kAvx512:
-            return "avx512";
-        case shadow::TraceIsa::kAuto:
-            return "auto";
-    }
-    return "";
+    return image.reproducible ? "exact" : shadow::name(isa);  // exact: nothing depends on Embree
 }
 
 std::string describe_filter(const ImageSettings& image) {
