@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "shadow/embree.h"
+#include "shadow/embree_objects.h"
 
 namespace penumbra::shadow {
 namespace {
@@ -201,33 +201,6 @@ int intersect_singles(RTCScene scene, const RayBatch& b) {
     return hits;
 }
 
-const char* configuration(TraceIsa isa) {
-    switch (isa) {
-        case TraceIsa::kAvx2:
-            return "isa=avx2,start_threads=0,set_affinity=0";
-        case TraceIsa::kAvx512:
-            return "isa=avx512,start_threads=0,set_affinity=0";
-        case TraceIsa::kAuto:
-            break;
-    }
-    return "start_threads=0,set_affinity=0";
-}
-
-void attach(RTCDevice device, RTCScene scene, const Instance& instance) {
-    const std::size_t vertices = instance.mesh->positions.size();
-    const std::size_t triangles = instance.mesh->triangles.size();
-    if (triangles == 0) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Positions have room behind the last one, as Embree's wide loads ask for.
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               instance.positions.data(), 0, sizeof(Vec3f), vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               instance.mesh->triangles.data(), 0, sizeof(Triangle), triangles);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-}
-
 }  // namespace
 
 const char* name(RayCall call) {
@@ -275,35 +248,30 @@ void RayBatch::pad() {
 
 struct BareRays::Implementation {
     explicit Implementation(TraceIsa isa)
-        : device(rtcNewDevice(configuration(isa))), scene(rtcNewScene(device)) {}
-    ~Implementation() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
-    Implementation(const Implementation&) = delete;
-    Implementation& operator=(const Implementation&) = delete;
+        : device(new_device(isa)), tree(new_scene(device.get())) {}
 
-    RTCDevice device;
-    RTCScene scene;
+    Device device;
+    Scene tree;
 };
 
 BareRays::BareRays(const SceneView& view, TraceIsa isa, const parallel::Arena& arena)
     : implementation_(std::make_unique<Implementation>(isa)) {
-    RTCScene scene = implementation_->scene;
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    for (const Instance& instance : view.instances)
-        attach(implementation_->device, scene, instance);
-    arena.run([scene] { rtcCommitScene(scene); });
-    if (rtcGetDeviceError(implementation_->device) != RTC_ERROR_NONE)
-        throw OutputError("the bare ray tracer's tree cannot be built");
+    RTCDevice device = implementation_->device.get();
+    RTCScene scene = implementation_->tree.get();
+    for (const Instance& instance : view.instances) {
+        if (instance.mesh->triangles.empty()) continue;
+        const VertexSource vertices{instance.positions.data(), instance.mesh->positions.size(),
+                                    true};
+        attach(scene, new_triangles(device, vertices, instance.mesh->triangles));
+    }
+    commit(device, scene, arena);
 }
 
 BareRays::~BareRays() = default;
 
 int BareRays::occlude(const RayBatch& batch, RayCall call, RayCallScratch& scratch) const {
     PENUMBRA_ASSERT(batch.size() % 16 == 0, "size = {}", batch.size());
-    RTCScene scene = implementation_->scene;
+    RTCScene scene = implementation_->tree.get();
     switch (call) {
         case RayCall::kSingle:
             return occlude_singles(scene, batch);
@@ -319,7 +287,7 @@ int BareRays::occlude(const RayBatch& batch, RayCall call, RayCallScratch& scrat
 
 int BareRays::intersect(const RayBatch& batch, RayCall call) const {
     PENUMBRA_ASSERT(batch.size() % 16 == 0, "size = {}", batch.size());
-    RTCScene scene = implementation_->scene;
+    RTCScene scene = implementation_->tree.get();
     if (call == RayCall::kPacket8) return intersect_packets<RTCRayHit8>(scene, batch, 8);
     if (call == RayCall::kPacket16) return intersect_packets<RTCRayHit16>(scene, batch, 16);
     return intersect_singles(scene, batch);

@@ -5,7 +5,7 @@
 
 #include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
-#include "shadow/occluders.h"
+#include "shadow/trace_isa.h"
 
 // The ray tracer by itself: Embree on the same triangles, without our packing, filters or
 // instances. What our passes are measured against.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "shadow/embree.h"
+#include "shadow/embree_objects.h"
 
 namespace penumbra::shadow {
 namespace {
@@ -133,13 +133,7 @@ RTCBuildArguments build_arguments(RTCBVH tree, std::vector<RTCBuildPrimitive>& f
 }  // namespace
 
 struct TreeBuilder::Device {
-    RTCDevice device = rtcNewDevice("start_threads=0,set_affinity=0");
-    Device() {
-        if (device == nullptr) throw OutputError("starting the tree builder failed");
-    }
-    ~Device() { rtcReleaseDevice(device); }
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
+    shadow::Device device = new_device(TraceIsa::kAuto);
 };
 
 struct TreeBuilder::Tree::Memory {
@@ -162,12 +156,12 @@ TreeBuilder::~TreeBuilder() = default;
 TreeBuilder::Tree TreeBuilder::build(std::span<const TreeTriangle> triangles) const {
     Tree tree;
     if (triangles.empty()) return tree;
-    tree.memory_ = std::make_unique<Tree::Memory>(device_->device);
+    tree.memory_ = std::make_unique<Tree::Memory>(device_->device.get());
     std::vector<RTCBuildPrimitive> from = primitives(arena_, triangles);
     const RTCBuildArguments arguments = build_arguments(tree.memory_->nodes, from, triangles);
     void* root = nullptr;
     arena_.run([&] { root = rtcBuildBVH(&arguments); });
-    const RTCError error = rtcGetDeviceError(device_->device);
+    const RTCError error = rtcGetDeviceError(device_->device.get());
     if (root == nullptr || error != RTC_ERROR_NONE)
         throw OutputError(fmt::format("building the shadow rays' tree failed (Embree error {})",
                                       static_cast<int>(error)));

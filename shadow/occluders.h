@@ -3,24 +3,16 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
 #include "core/simd/isa.h"
 #include "shadow/ray_stream.h"
+#include "shadow/trace_isa.h"
 
-// The geometry that blocks light. The door to Embree.
+// The geometry that blocks light.
 
 namespace penumbra::shadow {
-
-// Embree's own instruction set. Fixed, since about one occluded bit in a million may differ between
-// them.
-enum class TraceIsa { kAvx2, kAvx512, kAuto };
-
-// "avx2", "avx512" or "auto"; throws InputError for other names and for what the processor lacks.
-[[nodiscard]] TraceIsa parse_trace_isa(std::string_view name);
-[[nodiscard]] std::string_view name(TraceIsa isa);
 
 // Who decides whether a ray meets a triangle.
 enum class HitTest {
@@ -28,10 +20,19 @@ enum class HitTest {
     kExact,   // segment_triangle.h: the same answer on all processors
 };
 
+// Building a tree takes two threads 0.3 us per triangle; where models are instances instead, each
+// ray takes them 0.05 us longer. So moving triangles are worth a tree of their own in each frame
+// that has six rays for each; so many are asked for to be sure.
+inline constexpr std::size_t kRaysPerRebuiltTriangle = 16;
+
 struct OccluderSettings {
     TraceIsa isa = TraceIsa::kAvx2;  // of kEmbree
     HitTest test = HitTest::kEmbree;
     std::optional<simd::Isa> kernels;  // of kExact; changes no answer
+    // Of kEmbree: moving models with so many triangles together, the smallest first, are put into
+    // one tree in world space, anew for each frame; the others are instances, which are slower to
+    // trace.
+    std::size_t most_rebuilt = 1 << 16;
 };
 
 class Occluders {

@@ -52,7 +52,9 @@ TriangleExtents triangle_extents(const parallel::Arena& arena, const Instance& i
 float offset_scale(const TriangleExtents& extents, const Instance& instance) {
     if (!instance.is_animated) return extents.edge;
     const Affine3f& transform = instance.world_from_object;
-    return stretch(transform) * extents.coordinate + largest(transform.translation);
+    const float instanced =
+        stretch(transform) * extents.coordinate + largest(transform.translation);
+    return std::max(instanced, stretch(transform) * extents.edge);
 }
 
 }  // namespace penumbra::shadow

@@ -4,7 +4,7 @@
 
 #include "apps/bench/report.h"
 #include "core/simd/isa.h"
-#include "shadow/occluders.h"
+#include "shadow/trace_isa.h"
 
 namespace penumbra::bench {
 

@@ -38,6 +38,18 @@ ImageSettings completed(const Scene& scene, const ImageSettings& image) {
     return all;
 }
 
+// Depends on what pixels depend on, and never on the crop, which must not change one.
+shadow::OccluderSettings occluder_settings(const ImageSettings& image,
+                                           const ExecutionSettings& execution) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const auto rays_per_pixel = static_cast<std::size_t>(image.samples_per_pixel * image.passes);
+    return {.isa = execution.trace_isa,
+            .test = image.reproducible ? shadow::HitTest::kExact : shadow::HitTest::kEmbree,
+            .kernels = execution.isa,
+            .most_rebuilt = pixels * rays_per_pixel / shadow::kRaysPerRebuiltTriangle};
+}
+
 struct Renderer::State {
     const Scene& scene;
     ImageSettings image;
@@ -58,10 +70,7 @@ struct Renderer::State {
           image(completed(s, i)),
           execution(e),
           arena(e.threads > 0 ? e.threads : parallel::default_thread_count()),
-          occluders(arena,
-                    {.isa = e.trace_isa,
-                     .test = i.reproducible ? shadow::HitTest::kExact : shadow::HitTest::kEmbree,
-                     .kernels = e.isa}),
+          occluders(arena, occluder_settings(image, e)),
           scratch(static_cast<std::size_t>(arena.threads())),
           counts(static_cast<std::size_t>(arena.threads())) {
         if (!execution.isa) execution.isa = simd::best_isa();

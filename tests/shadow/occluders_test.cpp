@@ -77,6 +77,13 @@ void move(HandScene& scene, float time) {
     scene.evaluated();
 }
 
+// Moving models as instances, the box alone in world space, and all of them.
+constexpr std::size_t kRebuiltLimits[] = {0, 12, 1 << 16};
+
+OccluderSettings settings(std::size_t most_rebuilt) {
+    return {.most_rebuilt = most_rebuilt};
+}
+
 }  // namespace
 
 TEST_CASE("names of the ray tracer's instruction sets are checked") {
@@ -96,40 +103,58 @@ TEST_CASE("a scene without triangles blocks nothing") {
 
 TEST_CASE("moved models block as a fresh build of the same moment does, bit for bit") {
     const parallel::Arena arena(2);
-    HandScene scene;
-    fill(scene);
-    move(scene, 0);
-    Occluders kept(arena, TraceIsa::kAvx2);
-    kept.update(scene.view);
-    std::vector<bool> before;
-    for (const float time : {0.1f, 0.9f, 0.3f, 1.2f}) {
-        move(scene, time);
+    for (const std::size_t most_rebuilt : kRebuiltLimits) {
+        HandScene scene;
+        fill(scene);
+        move(scene, 0);
+        Occluders kept(arena, settings(most_rebuilt));
         kept.update(scene.view);
-        Occluders fresh(arena, TraceIsa::kAvx2);
-        fresh.update(scene.view);
-        const std::vector<bool> blocked = RandomRays(3).blocked(kept);
-        CHECK(blocked == RandomRays(3).blocked(fresh));
-        CHECK(blocked != before);
-        CHECK(count_true(blocked) > 100);
-        before = blocked;
+        std::vector<bool> before;
+        for (const float time : {0.1f, 0.9f, 0.3f, 1.2f}) {
+            move(scene, time);
+            kept.update(scene.view);
+            Occluders fresh(arena, settings(most_rebuilt));
+            fresh.update(scene.view);
+            const std::vector<bool> blocked = RandomRays(3).blocked(kept);
+            CHECK(blocked == RandomRays(3).blocked(fresh));
+            CHECK(blocked != before);
+            CHECK(count_true(blocked) > 100);
+            before = blocked;
+        }
     }
 }
 
-TEST_CASE("a model blocks the same rays whether it is instanced or fixed") {
+TEST_CASE("a model blocks the same rays whether it is fixed, rebuilt or instanced") {
     // Rays that end within rounding of the surface may differ; random ones do not come that close.
     const parallel::Arena arena(1);
-    std::vector<bool> results[2];
-    for (const bool is_animated : {false, true}) {
+    const auto blocked = [&](bool is_animated, std::size_t most_rebuilt) {
         HandScene scene;
         fill(scene);
         move(scene, 0.7f);
         scene.place(1, scene.view.instances[1].world_from_object, is_animated);
         scene.place(2, scene.view.instances[2].world_from_object, is_animated);
-        Occluders occluders(arena, TraceIsa::kAvx2);
+        Occluders occluders(arena, settings(most_rebuilt));
         occluders.update(scene.evaluated());
-        results[is_animated] = RandomRays(5).blocked(occluders);
-    }
-    CHECK(results[0] == results[1]);
+        return RandomRays(5).blocked(occluders);
+    };
+    const std::vector<bool> fixed = blocked(false, 0);
+    for (const std::size_t most_rebuilt : kRebuiltLimits)
+        CHECK(blocked(true, most_rebuilt) == fixed);
+}
+
+TEST_CASE("a model that comes to rest and is evaluated elsewhere is not forgotten") {
+    const parallel::Arena arena(1);
+    HandScene scene;
+    fill(scene);
+    move(scene, 0.4f);
+    Occluders occluders(arena, settings(kRebuiltLimits[2]));
+    occluders.update(scene.view);
+    const std::vector<bool> blocked = RandomRays(3).blocked(occluders);
+    // The same place, but other memory: the old one is gone.
+    for (Instance& instance : scene.view.instances)
+        if (instance.is_animated) instance.positions = std::vector<Vec3f>(instance.positions);
+    occluders.update(scene.view);
+    CHECK(RandomRays(3).blocked(occluders) == blocked);
 }
 
 TEST_CASE("a changed model is noticed although its mesh is the same") {
@@ -186,18 +211,21 @@ TEST_CASE("the result for a ray does not depend on the rays beside it") {
     HandScene scene;
     fill(scene);
     move(scene, 0.5f);
-    Occluders occluders(arena, TraceIsa::kAvx2);
-    occluders.update(scene.view);
-    const std::vector<bool> all = RandomRays(6).blocked(occluders);
-    for (const int count : {1, 7, 16, 33, 1000}) {
-        const std::vector<bool> part = RandomRays(6).blocked(occluders, count);
-        CHECK(std::equal(part.begin(), part.end(), all.begin()));
+    for (const std::size_t most_rebuilt : kRebuiltLimits) {
+        Occluders occluders(arena, settings(most_rebuilt));
+        occluders.update(scene.view);
+        const std::vector<bool> all = RandomRays(6).blocked(occluders);
+        for (const int count : {1, 7, 16, 33, 1000}) {
+            const std::vector<bool> part = RandomRays(6).blocked(occluders, count);
+            CHECK(std::equal(part.begin(), part.end(), all.begin()));
+        }
     }
 }
 
 TEST_CASE("holes of an opacity map let light through, the rest of the triangle does not") {
     const parallel::Arena arena(1);
-    for (const bool is_animated : {false, true}) {
+    for (const char* const kind : {"fixed", "rebuilt", "instanced"}) {
+        const bool is_animated = kind != std::string("fixed");
         HandScene scene;
         // Alpha 1 in the left half of the picture, 0 in the right.
         Texture texture;
@@ -222,7 +250,7 @@ TEST_CASE("holes of an opacity map let light through, the rest of the triangle d
         mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};
         mesh.triangle_slots = {1, 1, 0, 0};
         scene.place(0, placed(3, {1, 2, 3}), is_animated);
-        Occluders occluders(arena, TraceIsa::kAvx2);
+        Occluders occluders(arena, settings(kind == std::string("instanced") ? 0 : 100));
         occluders.update(scene.evaluated());
         RandomRays rays(1);
         int expected_blocked = 0;

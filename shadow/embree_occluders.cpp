@@ -1,0 +1,259 @@
+#include "shadow/embree_occluders.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "shadow/cutout_geometry.h"
+#include "shadow/embree_objects.h"
+
+namespace penumbra::shadow {
+namespace {
+
+// Embree's callback: drops hits that fall into a hole.
+void drop_holes(const RTCFilterFunctionNArguments* arguments) {
+    const auto& geometry = *static_cast<const CutoutGeometry*>(arguments->geometryUserPtr);
+    const unsigned lanes = arguments->N;
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+        if (arguments->valid[lane] == 0) continue;
+        RTCRayN* const ray = arguments->ray;
+        const Vec3f origin = {RTCRayN_org_x(ray, lanes, lane), RTCRayN_org_y(ray, lanes, lane),
+                              RTCRayN_org_z(ray, lanes, lane)};
+        const Vec3f direction = {RTCRayN_dir_x(ray, lanes, lane), RTCRayN_dir_y(ray, lanes, lane),
+                                 RTCRayN_dir_z(ray, lanes, lane)};
+        const unsigned triangle = RTCHitN_primID(arguments->hit, lanes, lane);
+        if (!geometry.is_opaque_at(triangle, origin, direction)) arguments->valid[lane] = 0;
+    }
+}
+
+void set_transform(RTCGeometry geometry, const Affine3f& world_from_object) {
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &world_from_object);
+    rtcCommitGeometry(geometry);
+}
+static_assert(sizeof(Affine3f) == 12 * sizeof(float), "four columns of three floats");
+
+#if RTC_VERSION_MAJOR >= 4
+
+// Without streams: packets of 16, of which the last one is filled up with masked rays.
+void occlude_by(RTCScene scene, const RayStream& rays) {
+    constexpr int kPacket = 16;
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    for (int first = 0; first < rays.count; first += kPacket) {
+        RTCRay16 packet{};
+        alignas(64) int valid[kPacket];
+        for (int i = 0; i < kPacket; ++i) valid[i] = first + i < rays.count ? -1 : 0;
+        std::copy_n(rays.origin[0] + first, kPacket, packet.org_x);
+        std::copy_n(rays.origin[1] + first, kPacket, packet.org_y);
+        std::copy_n(rays.origin[2] + first, kPacket, packet.org_z);
+        std::copy_n(rays.direction[0] + first, kPacket, packet.dir_x);
+        std::copy_n(rays.direction[1] + first, kPacket, packet.dir_y);
+        std::copy_n(rays.direction[2] + first, kPacket, packet.dir_z);
+        std::copy_n(rays.near_limit + first, kPacket, packet.tnear);
+        std::copy_n(rays.far_limit + first, kPacket, packet.tfar);
+        std::fill_n(packet.mask, kPacket, 0xFFFFFFFFu);
+        rtcOccluded16(valid, scene, &packet, &arguments);
+        std::copy_n(packet.tfar, kPacket, rays.far_limit + first);
+    }
+}
+
+#else
+
+// As one stream: fewer calls than packets, and Embree gathers what its own width needs.
+void occlude_by(RTCScene scene, const RayStream& rays) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    RTCRayNp stream{};
+    stream.org_x = rays.origin[0];
+    stream.org_y = rays.origin[1];
+    stream.org_z = rays.origin[2];
+    stream.dir_x = rays.direction[0];
+    stream.dir_y = rays.direction[1];
+    stream.dir_z = rays.direction[2];
+    stream.tnear = rays.near_limit;
+    stream.tfar = rays.far_limit;
+    rtcOccludedNp(scene, &context, &stream, static_cast<unsigned>(rays.count));
+}
+
+#endif
+
+// Trees refer to the triangles and opacity maps that they were split into.
+struct Tree {
+    std::vector<std::unique_ptr<CutoutSplit>> splits;
+    Scene scene;  // null: without triangles
+};
+
+// Where a model was when its tree was built.
+struct Placement {
+    const Vec3f* positions;  // world
+    Affine3f world_from_object;
+    friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+// Which moving models are small enough, together, to be built anew for each frame: the smallest.
+std::vector<std::size_t> rebuilt_models(const SceneView& view, std::size_t most_triangles) {
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < view.instances.size(); ++i)
+        if (view.instances[i].is_animated) moving.push_back(i);
+    const auto size = [&](std::size_t i) { return view.instances[i].mesh->triangles.size(); };
+    std::stable_sort(moving.begin(), moving.end(),
+                     [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+    std::size_t triangles = 0;
+    const auto first_large = std::find_if(moving.begin(), moving.end(), [&](std::size_t i) {
+        triangles += size(i);
+        return triangles > most_triangles;
+    });
+    moving.erase(first_large, moving.end());
+    return moving;
+}
+
+}  // namespace
+
+// Rays visit three trees, one after the other: of all that never moves; of small moving models,
+// built anew where they are; and one of instances of large ones, whose own trees in object space
+// are built once. None is ever refitted, since a refitted tree would depend on its history.
+// Instances cost more than twice the time of triangles in world space: rays leave their packets.
+struct EmbreeOccluders::Implementation {
+    Implementation(const parallel::Arena& arena_to_use, TraceIsa isa, std::size_t most)
+        : arena(arena_to_use), most_rebuilt(most), device(new_device(isa)) {}
+
+    void attach_triangles(Tree& tree, const VertexSource& vertices,
+                          std::span<const Triangle> triangles, const CutoutGeometry* cutout) const {
+        if (triangles.empty()) return;
+        if (!tree.scene) tree.scene = new_scene(device.get());
+        const Geometry geometry = new_triangles(device.get(), vertices, triangles);
+        if (cutout) {
+            rtcSetGeometryUserData(geometry.get(), const_cast<CutoutGeometry*>(cutout));
+            rtcSetGeometryOccludedFilterFunction(geometry.get(), &drop_holes);
+        }
+        attach(tree.scene.get(), geometry);
+        check(device.get(), "filling the shadow rays' tree");
+    }
+
+    // Opaque triangles and those with holes are geometries of their own: only the latter ask back.
+    void attach_model(Tree& tree, const SceneView& view, const Instance& instance,
+                      const VertexSource& vertices) const {
+        auto split = split_cutouts(view, instance, vertices.positions);
+        attach_triangles(tree, vertices, split->opaque, nullptr);
+        attach_triangles(tree, vertices, split->cutout.triangles, &split->cutout);
+        tree.splits.push_back(std::move(split));
+    }
+
+    void attach_in_world(Tree& tree, const SceneView& view, const Instance& instance) const {
+        attach_model(tree, view, instance,
+                     {instance.positions.data(), instance.mesh->positions.size(), true});
+    }
+
+    void finish(const Tree& tree) const {
+        if (tree.scene) commit(device.get(), tree.scene.get(), arena);
+    }
+
+    // A model's tree; models that share mesh and materials share it.
+    RTCScene object_tree(const SceneView& view, const Instance& instance) {
+        for (const Model& other : models)
+            if (other.mesh == instance.mesh && other.materials == instance.materials.data())
+                return other.tree.scene.get();
+        Model model{instance.mesh, instance.materials.data(), {}};
+        attach_model(model.tree, view, instance,
+                     {instance.mesh->positions.data(), instance.mesh->positions.size(), false});
+        finish(model.tree);
+        models.push_back(std::move(model));
+        return models.back().tree.scene.get();
+    }
+
+    void add_instance(const SceneView& view, std::size_t index) {
+        RTCScene of = object_tree(view, view.instances[index]);
+        if (!of) return;
+        if (!instances) instances = new_scene(device.get());
+        Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(geometry.get(), of);
+        set_transform(geometry.get(), Affine3f{});
+        rtcAttachGeometry(instances.get(), geometry.get());
+        copies.push_back({index, std::move(geometry), {}, false});
+    }
+
+    void place_rebuilt(const SceneView& view) {
+        std::vector<Placement> now;
+        for (const std::size_t i : rebuilt)
+            now.push_back(
+                {view.instances[i].positions.data(), view.instances[i].world_from_object});
+        if (now == placed) return;
+        placed.clear();  // after a failure, the next call begins anew
+        moving = Tree{};
+        for (const std::size_t i : rebuilt) attach_in_world(moving, view, view.instances[i]);
+        finish(moving);
+        placed = std::move(now);
+    }
+
+    void place_instances(const SceneView& view) {
+        bool changed = false;
+        for (Copy& copy : copies) {
+            const Affine3f& now = view.instances[copy.index].world_from_object;
+            if (copy.is_placed && copy.world_from_object == now) continue;
+            set_transform(copy.geometry.get(), now);
+            copy.world_from_object = now;
+            copy.is_placed = changed = true;
+        }
+        if (changed) commit(device.get(), instances.get(), arena);
+    }
+
+    struct Model {
+        const Mesh* mesh;
+        const std::uint32_t* materials;
+        Tree tree;  // object space
+    };
+    struct Copy {
+        std::size_t index;  // of the view's instances
+        Geometry geometry;
+        Affine3f world_from_object;
+        bool is_placed;
+    };
+
+    const parallel::Arena& arena;
+    std::size_t most_rebuilt;
+    Device device;
+    Tree fixed;
+    std::vector<std::size_t> rebuilt;  // of the view's instances
+    std::vector<Placement> placed;     // of those, as they are in `moving`
+    Tree moving;
+    std::vector<Model> models;
+    std::vector<Copy> copies;
+    Scene instances;  // null: no model is large
+};
+
+EmbreeOccluders::EmbreeOccluders(const parallel::Arena& arena, TraceIsa isa,
+                                 std::size_t most_rebuilt)
+    : implementation_(std::make_unique<Implementation>(arena, isa, most_rebuilt)) {}
+EmbreeOccluders::~EmbreeOccluders() = default;
+
+void EmbreeOccluders::rebuild(const SceneView& view) {
+    Implementation& self = *implementation_;
+    self.instances.reset();
+    self.copies.clear();
+    self.models.clear();
+    self.moving = Tree{};
+    self.placed.clear();
+    self.fixed = Tree{};
+    for (const Instance& instance : view.instances)
+        if (!instance.is_animated) self.attach_in_world(self.fixed, view, instance);
+    self.finish(self.fixed);
+    self.rebuilt = rebuilt_models(view, self.most_rebuilt);
+    for (std::size_t i = 0; i < view.instances.size(); ++i)
+        if (view.instances[i].is_animated &&
+            std::find(self.rebuilt.begin(), self.rebuilt.end(), i) == self.rebuilt.end())
+            self.add_instance(view, i);
+}
+
+void EmbreeOccluders::place_moving(const SceneView& view) {
+    implementation_->place_rebuilt(view);
+    implementation_->place_instances(view);
+}
+
+void EmbreeOccluders::occlude(const RayStream& rays) const {
+    const Implementation& self = *implementation_;
+    for (RTCScene scene : {self.fixed.scene.get(), self.moving.scene.get(), self.instances.get()})
+        if (scene) occlude_by(scene, rays);
+}
+
+}  // namespace penumbra::shadow
