@@ -68,7 +68,8 @@ void write_golden(const Entry& entry) {
 
 }  // namespace
 
-void accept(const Acceptance& acceptance, std::vector<CheckOutcome>& outcomes) {
+void accept(const Acceptance& acceptance, std::vector<CheckOutcome>& outcomes,
+            const std::atomic<bool>& cancelled) {
     const std::vector<Entry> entries = entries_of(acceptance, outcomes);
     Twins twins;
     for (const Entry& entry : entries) {
@@ -80,6 +81,7 @@ void accept(const Acceptance& acceptance, std::vector<CheckOutcome>& outcomes) {
     }
     refuse_twins(twins);
     for (const Entry& entry : entries) {
+        if (cancelled) return;
         if (!entry.is_candidate || entry.frame->verdict == Verdict::kUnfit) continue;
         try {
             write_golden(entry);

@@ -40,6 +40,17 @@ std::vector<std::string> render_command(const Check& check, const CheckSettings&
     return command;
 }
 
+// "--spp" -> "shot.check.json: render.spp"
+std::map<std::string, std::string> places_of_options(const Check& check,
+                                                     const CheckSettings& settings,
+                                                     const RenderSettings& how) {
+    std::map<std::string, std::string> places;
+    for (const auto& [option, value] : settings.render)
+        if (!how.overrides.contains(option))
+            places["--" + option] = fmt::format("{}: render.{}", check.settings.string(), option);
+    return places;
+}
+
 // Pictures of this stem in its folder, by frame.
 std::vector<RenderedFrame> find_frames(const fs::path& stem) {
     const std::string before = stem.filename().string() + ".";
@@ -100,6 +111,7 @@ std::string message_of(std::string_view log) {
 RenderJob::RenderJob(const Check& check, const CheckSettings& settings, const RenderSettings& how,
                      fs::path stem)
     : stem_(std::move(stem)),
+      places_(places_of_options(check, settings, how)),
       command_(render_command(check, settings, how, made_ready(stem_))),
       timeout_seconds_(how.timeout_seconds),
       process_(command_, log_file()) {}
@@ -123,6 +135,13 @@ bool RenderJob::poll() {
     return false;
 }
 
+// What the renderer says of an option is about a value in a file.
+std::string RenderJob::message() const {
+    const std::string said = message_of(log_);
+    const auto place = places_.find(said.substr(0, said.find(':')));
+    return place == places_.end() ? said : place->second + said.substr(place->first.size());
+}
+
 std::optional<Error> RenderJob::error() const {
     if (is_timed_out_)
         return Error{ErrorKind::kTimeout,
@@ -135,10 +154,10 @@ std::optional<Error> RenderJob::error() const {
         return Error{ErrorKind::kCrash, fmt::format("the renderer crashed (signal {}: {})",
                                                     ending_.signal, strsignal(ending_.signal))};
     if (ending_.exit_code == 0) return std::nullopt;
-    if (ending_.exit_code == 2) return Error{ErrorKind::kScene, message_of(log_)};
-    if (ending_.exit_code == 3) return Error{ErrorKind::kRender, message_of(log_)};
+    if (ending_.exit_code == 2) return Error{ErrorKind::kScene, message()};
+    if (ending_.exit_code == 3) return Error{ErrorKind::kRender, message()};
     return Error{ErrorKind::kCrash, fmt::format("the renderer ended with exit code {}: {}",
-                                                ending_.exit_code, message_of(log_))};
+                                                ending_.exit_code, message())};
 }
 
 void RenderJob::describe(CheckOutcome& outcome) const {

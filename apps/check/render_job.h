@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,10 @@ class RenderJob {
   private:
     [[nodiscard]] std::filesystem::path log_file() const;
     [[nodiscard]] std::optional<Error> error() const;
+    [[nodiscard]] std::string message() const;
 
     std::filesystem::path stem_;
+    std::map<std::string, std::string> places_;  // where options come from that a file sets
     std::vector<std::string> command_;
     double timeout_seconds_;
     bool is_timed_out_ = false;

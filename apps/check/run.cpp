@@ -168,7 +168,7 @@ std::vector<CheckOutcome> run_checks(const std::vector<Check>& checks, const Run
     Run run(checks, settings, on_outcome);
     std::vector<CheckOutcome> outcomes = run.finish(cancelled);
     if (!cancelled.load())
-        accept({.update = settings.may_update, .bless = settings.may_bless}, outcomes);
+        accept({.update = settings.may_update, .bless = settings.may_bless}, outcomes, cancelled);
     return outcomes;
 }
 

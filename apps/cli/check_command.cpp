@@ -53,9 +53,9 @@ void print(const CheckOutcome& outcome) {
     std::fflush(stdout);
 }
 
-// What judging and writing goldens changed after the check was reported.
+// What judging and writing goldens changed after the check was reported, if it was.
 void print_changes(const std::vector<CheckOutcome>& outcomes, const std::vector<Verdict>& before) {
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(outcomes.size(), before.size()); ++i) {
         const CheckOutcome& outcome = outcomes[i];
         if (outcome.verdict() == before[i]) continue;
         if (outcome.error) {
@@ -174,9 +174,9 @@ int run(const CheckOptions& options, const std::string& program) {
             verdicts.push_back(outcome.verdict());
         },
         cancelled);
+    print_changes(outcomes, verdicts);  // goldens are written, whatever happened then
     if (cancelled.load()) return interrupt_exit_code();
     const check::Invocation invocation = invocation_of(options, program);
-    print_changes(outcomes, verdicts);
     print_summary(outcomes, watch.seconds());
     print_accept_command(options, invocation, outcomes);
     write_reports(options, invocation, outcomes, watch.seconds());

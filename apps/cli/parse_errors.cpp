@@ -49,14 +49,33 @@ std::string explain_missing(const Place& place, const std::string& message) {
     return fmt::format("{}: is missing, expected {}", name, place.entry.usage(place.path));
 }
 
+const OptionEntry* find_option(const Place& place, const std::string& name) {
+    for (const OptionEntry& option : place.entry.options)
+        for (const std::string& each : option.names)
+            if (each == name) return &option;
+    return nullptr;
+}
+
 // An option without its value.
 std::string explain_mismatch(const Place& place, const std::string& message) {
     const std::string name = message.substr(0, message.find(':'));
-    for (const OptionEntry& option : place.entry.options)
-        for (const std::string& each : option.names)
-            if (each == name && message.ends_with("missing"))
-                return fmt::format("{}: expected {}, got nothing", name, option.value);
-    return message;
+    const OptionEntry* const option = find_option(place, name);
+    if (!option || !message.ends_with("missing")) return message;
+    return fmt::format("{}: expected {}, got nothing", name, option->value);
+}
+
+// "Could not convert: --spp = 4.5"
+std::string explain_conversion(const Place& place, const std::string& message) {
+    constexpr std::string_view kBefore = ": ", kBetween = " = ";
+    const std::size_t start = message.find(kBefore), end = message.find(kBetween);
+    if (start == std::string::npos || end == std::string::npos || end < start) return message;
+    const std::size_t name_start = start + kBefore.size();
+    const std::string name = message.substr(name_start, end - name_start);
+    const OptionEntry* const option = find_option(place, name);
+    if (!option) return message;
+    return fmt::format("{}: expected a {}number{}{}, got \"{}\"", name,
+                       option->value == "N" ? "whole " : "", option->range.empty() ? "" : ", ",
+                       option->range, message.substr(end + kBetween.size()));
 }
 
 // "--method: magic not in {ratio,stochastic}"
@@ -86,6 +105,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     if (is_unknown) return explain_extra(place);
     if (kind == "RequiredError") return explain_missing(place, message);
     if (kind == "ArgumentMismatch") return explain_mismatch(place, message);
+    if (kind == "ConversionError") return explain_conversion(place, message);
     if (kind == "ValidationError") return explain_value(message);
     return message;
 }

@@ -132,6 +132,8 @@ bad_option "a crop outside of the picture" "--crop" --crop 0,0,17,16
 bad_option "an empty crop" "--crop" --crop 4,4,4,8
 bad_option "an unknown AOV" "--aov" --aov depth
 bad_option "too many rays" "--spp" --spp 65
+bad_option "half a ray" "--spp: expected a whole number, 1 to 64, got \"4.5\"" --spp 4.5
+bad_option "a word for a number" "--seed: expected a whole number, got \"x\"" --seed x
 bad_option "no threads" "--threads" --threads 0
 bad_option "an unknown compression" "--compression" --compression lzma
 bad_option "a lossy compression of positions" "--compression" --compression dwaa --aov P

@@ -101,7 +101,7 @@ check "an unknown key is refused" checks_with 2 a
 check "with the nearest one" complains 'did you mean "render"?'
 echo '{ "render": { "spp": 100000 } }' >a/shot.check.json
 check "so is an option's value" checks_with 2 a
-check "by its name" complains "--spp"
+check "with its place" complains "a/shot.check.json: render.spp: expected a number, 1 to 64, got \"100000\""
 rm a/shot.check.json
 check "--update restores the peace" checks_with 0 a --update
 
