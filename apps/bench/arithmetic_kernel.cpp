@@ -8,6 +8,19 @@ namespace {
 // Enough chains that none waits for its own last result: a fused multiply-add takes 4 cycles, and
 // two start in each.
 constexpr int kChains = 12;
+// Likewise, of additions.
+constexpr int kSums = 8;
+
+template <int count>
+float total(const F (&values)[count]) {
+    F all(0.0f);
+    for (const F& value : values) all = all + value;
+    alignas(64) float lanes[kLanes];
+    simd::store(lanes, all);
+    float sum = 0;
+    for (const float lane : lanes) sum += lane;
+    return sum;
+}
 
 }  // namespace
 
@@ -22,13 +35,25 @@ float multiply_adds(long long rounds, float seed) {
     const F offset(seed);
     for (long long round = 0; round < rounds; ++round)
         for (F& sum : sums) sum = simd::fma(sum, factor, offset);
-    F all(0.0f);
-    for (const F& sum : sums) all = all + sum;
-    alignas(64) float lanes[kLanes];
-    simd::store(lanes, all);
-    float total = 0;
-    for (const float lane : lanes) total += lane;
-    return total;
+    return total(sums);
+}
+
+float dependent_multiply_adds(int count, float seed) {
+    F chain[1] = {F(seed)};
+    const F factor(0.5f);
+    const F offset(seed);
+    for (int i = 0; i < count; ++i) chain[0] = simd::fma(chain[0], factor, offset);
+    return total(chain);
+}
+
+float table_sums(const float* table, int floats, int rounds) {
+    F sums[kSums];
+    for (F& sum : sums) sum = F(0.0f);
+    for (int round = 0; round < rounds; ++round)
+        for (int first = 0; first < floats; first += kSums * kLanes)
+            for (int k = 0; k < kSums; ++k)
+                sums[k] = sums[k] + simd::load<F>(table + first + k * kLanes);
+    return total(sums);
 }
 
 }  // namespace penumbra::PENUMBRA_ISA

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "apps/bench/launch_values.h"
+#include "apps/bench/matched_runs.h"
 #include "apps/bench/rank_test.h"
 #include "apps/bench/relabelling.h"
 #include "core/error.h"
@@ -116,7 +117,17 @@ class Comparer {
         }
     }
 
-    void add_run(const SceneResult& scene, const ThreadRun& then, const ThreadRun& now) {
+    void add_run(const SceneResult& scene, const ThreadRun& old_run, const ThreadRun& new_run) {
+        const MatchedRuns runs =
+            match(old_run, new_run, old_.machine.processor == new_.machine.processor);
+        if (!runs.note.empty())
+            result_.differences.push_back(
+                fmt::format("{}/threads:{}: {}", scene.name, new_run.threads, runs.note));
+        result_.least_probability =
+            std::max(result_.least_probability,
+                     least_probability(runs.then.places.size(), runs.now.places.size()));
+        const ThreadRun& then = runs.then.kept;
+        const ThreadRun& now = runs.now.kept;
         for (const PassResult& pass : now.passes) {
             // Groups repeat their passes, and "other" is what no pass did.
             if (!pass.parts.empty() || pass.name == "other") continue;
@@ -134,12 +145,13 @@ class Comparer {
                           .pass = pass.name,
                           .old_fraction = summarize(fractions(*before)).median,
                           .new_fraction = summarize(fractions(pass)).median},
-                         steadiest_values(then, now, pass.name));
+                         runs);
             if (before) note(name + ": limit", before->limit_call, pass.limit_call);
         }
     }
 
-    void add_pass(const std::string& name, PassComparison shown, const LaunchValues& values) {
+    void add_pass(const std::string& name, PassComparison shown, const MatchedRuns& runs) {
+        const LaunchValues values = steadiest_values(runs.then.kept, runs.now.kept, shown.pass);
         if (values.then.empty() || values.now.empty())
             return leave_out(name, "too short for the clock");
         shown.reference = values.reference;
@@ -148,9 +160,7 @@ class Comparer {
         shown.low = std::expm1(shift.low);
         shown.high = std::expm1(shift.high);
         shown.rank_probability = mann_whitney(values.then, values.now).probability;
-        Quantity both = values.then;
-        both.insert(both.end(), values.now.begin(), values.now.end());
-        candidates_.push_back({std::move(shown), std::move(both)});
+        candidates_.push_back({std::move(shown), runs.among_all(values)});
     }
 
     [[noreturn]] void refuse() const {
@@ -176,8 +186,6 @@ class Comparer {
                 pass.verdict = pass.change > 0 ? Verdict::kSlower : Verdict::kFaster;
             result_.passes.push_back(std::move(pass));
         }
-        result_.least_probability =
-            bench::least_probability(old_count, static_cast<std::size_t>(result_.new_launches));
     }
 
     const Report& old_;

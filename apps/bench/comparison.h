@@ -24,7 +24,7 @@ inline constexpr double kLeastChange = 0.02;
 
 // Nor is one below so many times what two launches of the same program typically differ by: the
 // neighbours of one hour are not those of another.
-inline constexpr double kLeastStrength = 2;
+inline constexpr double kLeastStrength = 3;
 
 enum class Verdict { kNoChange, kSlower, kFaster };
 [[nodiscard]] std::string name(Verdict verdict);  // "", "SLOWER", "faster"

@@ -8,6 +8,7 @@
 
 #include "apps/bench/charts.h"
 #include "apps/bench/table.h"
+#include "apps/bench/undisturbed.h"
 #include "apps/diff/html_parts.h"
 #include "core/embedded_file.h"
 
@@ -111,10 +112,12 @@ std::string run_details(const SceneResult& scene, const ThreadRun& run, bool is_
     std::vector<PassResult> groups;
     for (const PassResult& pass : run.passes)
         (pass.parts.empty() && pass.name != "frame" ? passes : groups).push_back(pass);
+    const std::string others = disturbance(run);
     const std::string where = scene.name + ", " + threads_in_words(run.threads);
     return fmt::format(
-        "<details{}><summary>{}</summary>\n<div class=\"scroll\">{}{}</div>\n{}</details>\n",
+        "<details{}><summary>{}</summary>\n{}<div class=\"scroll\">{}{}</div>\n{}</details>\n",
         is_open ? " open" : "", threads_in_words(run.threads),
+        others.empty() ? "" : fmt::format("<p class=\"legend\">{}</p>\n", others),
         bar_chart(passes, where + ": passes"), bar_chart(groups, where + ": groups and frame"),
         pass_table(run));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/profile/stopwatch.h"
 #include "core/profile/timeline.h"
 
@@ -28,6 +29,10 @@ LoopTime timed(profile::Profile& profile, const char* name, int rounds, const Bo
                    .thread_milliseconds = 1e-6 * static_cast<double>(tasks)},
                   1.0 / rounds);
 }
+
+// Phases whose tasks floors are made of.
+constexpr const char* kPrimaryRaysPhase = "limit: primary rays";
+constexpr const char* kShadowRaysPhase = "limit: shadow rays";
 
 // Shorter ones drown in what else goes on in the machine.
 constexpr double kLeastMilliseconds = 4;
@@ -137,8 +142,8 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
     stores_ = choose(std::vector<Stores>{Stores::kThroughCaches, Stores::kAroundCaches},
                      calls.stream, [&](Stores s) { return stream(filter_, s, "stream"); });
     // The first time is the first touch of the memory.
-    static_cast<void>(measure());
-    const Measured once = measure();
+    static_cast<void>(measure_once());
+    const Measured once = measure_once();
     setup_.rounds = rounds_for(once.setup.wall_milliseconds);
     deposit_.rounds = rounds_for(once.deposit.wall_milliseconds);
     noise_.rounds = rounds_for(once.noise.wall_milliseconds);
@@ -148,7 +153,7 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
 }
 
 LoopTime Limits::primary(shadow::RayCall call) {
-    return timed(profile_, "limit: primary rays", 1, [&] {
+    return timed(profile_, kPrimaryRaysPhase, 1, [&] {
         arena_.for_each(static_cast<int>(work_.primary.size()), [&](int index, int) {
             bare_.intersect(work_.primary[static_cast<std::size_t>(index)], call);
         });
@@ -156,7 +161,7 @@ LoopTime Limits::primary(shadow::RayCall call) {
 }
 
 LoopTime Limits::shadow(shadow::RayCall call) {
-    const LoopTime kept = timed(profile_, "limit: shadow rays", 1, [&] {
+    const LoopTime kept = timed(profile_, kShadowRaysPhase, 1, [&] {
         arena_.for_each(static_cast<int>(work_.shadow.size()), [&](int index, int worker) {
             bare_.occlude(work_.shadow[static_cast<std::size_t>(index)], call,
                           scratch_[static_cast<std::size_t>(worker)]);
@@ -174,7 +179,32 @@ LoopTime Limits::arithmetic(const Arithmetic& loop, const char* name) {
                  [&] { multiply_adds(loop.multiply_adds, isa_, arena_); });
 }
 
+Limits::Measured Limits::floors(const Floors& tasks) const {
+    const auto rays = [&](const char* name, double scale) {
+        const double milliseconds = scale * tasks.milliseconds(profile::Kind::kTask, name);
+        return LoopTime{milliseconds / arena_.threads(), milliseconds};
+    };
+    PENUMBRA_ASSERT(least_, "nothing was measured");
+    Measured floors = *least_;
+    floors.primary_rays = rays(kPrimaryRaysPhase, 1);
+    floors.shadow_rays = rays(kShadowRaysPhase, work_.shadow_scale);
+    return floors;
+}
+
 Limits::Measured Limits::measure() {
+    const Measured measured = measure_once();
+    if (!least_) least_ = measured;
+    for (const auto loop : {&Measured::shade, &Measured::rays, &Measured::setup, &Measured::deposit,
+                            &Measured::noise, &Measured::filter}) {
+        const LoopTime& time = measured.*loop;
+        LoopTime& least = (*least_).*loop;
+        least = {std::min(least.wall_milliseconds, time.wall_milliseconds),
+                 std::min(least.thread_milliseconds, time.thread_milliseconds)};
+    }
+    return measured;
+}
+
+Limits::Measured Limits::measure_once() {
     return {.primary_rays = primary(primary_call_),
             .shadow_rays = shadow(shadow_call_),
             .shade = arithmetic(shade_, "limit: arithmetic of shade"),

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/bench/floors.h"
 #include "apps/bench/peaks.h"
 #include "apps/bench/report.h"
 #include "apps/bench/workload.h"
@@ -53,6 +54,9 @@ class Limits {
 
     // All of them once.
     [[nodiscard]] Measured measure();
+    // The least of all times that measure() returned (at least one); rays by the tile, from the
+    // slices of all those calls.
+    [[nodiscard]] Measured floors(const Floors& tasks) const;
 
     // "stream", "8-packets", "around the caches", "avx512".
     [[nodiscard]] std::string primary_call() const { return name(primary_call_); }
@@ -61,6 +65,7 @@ class Limits {
     [[nodiscard]] std::string arithmetic_call() const { return std::string(simd::name(isa_)); }
 
   private:
+    Measured measure_once();
     LoopTime primary(shadow::RayCall call);
     LoopTime shadow(shadow::RayCall call);
     // A loop that is over in no time is run several times, until it can be measured.
@@ -85,6 +90,7 @@ class Limits {
     std::vector<shadow::RayCallScratch> scratch_;  // one per worker
     Stream setup_, deposit_, noise_, filter_;
     Arithmetic shade_, rays_;
+    std::optional<Measured> least_;  // of all that measure() returned
     shadow::RayCall primary_call_ = shadow::RayCall::kSingle;
     shadow::RayCall shadow_call_ = shadow::RayCall::kSingle;
     StreamStores stores_ = StreamStores::kThroughCaches;

@@ -6,10 +6,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/bench/core_share.h"
 #include "apps/bench/hardware_counters.h"
 #include "apps/bench/limits.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/passes.h"
+#include "apps/bench/patience.h"
+#include "apps/bench/undisturbed.h"
 #include "apps/renderer/builtin_scene.h"
 #include "apps/renderer/renderer.h"
 #include "core/profile/timeline.h"
@@ -52,12 +55,29 @@ void append(const profile::Profile& run, const std::string& name, Recording& rec
                                     .first = {"threads", run.threads()}});
 }
 
+// What the repetitions of one run work with.
+struct Stage {
+    profile::Profile& profile;
+    renderer::Renderer& renderer;
+    const parallel::Arena& arena;  // of the limits; the profile records it
+    Limits& limits;
+    ThreadRun run;
+    Floors floors;
+};
+
+double look_at_cores(const Stage& stage) {
+    const profile::Phase phase(&stage.profile, "core share");
+    return core_share(stage.arena);
+}
+
 // One scene, run after run.
 class SceneBench {
   public:
-    SceneBench(const BenchSettings& settings, const std::string& path, const CounterSet& counters,
-               const Listener& listener, const std::atomic<bool>& cancelled)
+    SceneBench(const BenchSettings& settings, const std::string& path, const Machine& machine,
+               const CounterSet& counters, const Listener& listener,
+               const std::atomic<bool>& cancelled)
         : settings_(settings),
+          machine_(machine),
           counters_(counters),
           listener_(listener),
           cancelled_(cancelled),
@@ -97,29 +117,47 @@ class SceneBench {
             limit_settings.calls = limit_calls(*settings_.calls_of, result_.name, threads);
         tell(threads, "looking for the quickest calls");
         Limits limits(*workload_, *bare_, limit_settings, arena, profile);
-        ThreadRun run = empty_run(threads, *workload_, limits);
-        for (int i = 0; i < settings_.repetitions; ++i) {
+        Stage stage{profile, renderer, arena, limits, empty_run(threads, *workload_, limits), {}};
+        Patience patience({.repetitions = settings_.repetitions,
+                           .seconds = settings_.patience_seconds,
+                           .best_share = known_share(threads)},
+                          arena);
+        while (patience.wants_more()) {
+            tell(threads, patience.progress());
+            patience.wait(cancelled_);
             if (cancelled_) return;
-            tell(threads, fmt::format("{} of {}", i + 1, settings_.repetitions));
             profile.clear();
-            repeat(i, renderer, limits, profile, run);
+            patience.add(repeat(patience.count(), stage));
         }
-        if (run.counters) divide(settings_.repetitions, *run.counters);
+        set_floors(stage.floors, limits.floors(stage.floors), stage.run);
+        if (stage.run.counters) divide(patience.count(), *stage.run.counters);
         if (recording) append(profile, run_name(threads), *recording);
-        result_.runs.push_back(std::move(run));
+        result_.runs.push_back(
+            least_disturbed(stage.run, static_cast<std::size_t>(settings_.repetitions)));
+    }
+
+    // What cores gave when they were our own, as far as an older report of this processor knows.
+    [[nodiscard]] double known_share(int threads) const {
+        const Report* const older = settings_.calls_of;
+        if (!older || older->machine.processor != machine_.processor) return 0;
+        return best_core_share(*older, result_.name, threads);
     }
 
     // The frame and its limits in turns, so that whatever slows the machine down meets both.
-    void repeat(int index, renderer::Renderer& renderer, Limits& limits,
-                const profile::Profile& profile, ThreadRun& run) {
+    // Returns what its cores gave it.
+    double repeat(int index, Stage& stage) {
         Limits::Measured measured;
-        if (index % 2 == 1) measured = limits.measure();
+        if (index % 2 == 1) measured = stage.limits.measure();
+        const double share_before = look_at_cores(stage);
         const std::optional<HardwareCounters> before = counters_.read();
-        const renderer::FrameStatistics statistics = render(renderer);
+        const renderer::FrameStatistics statistics = render(stage.renderer);
         const std::optional<HardwareCounters> after = counters_.read();
-        if (index % 2 == 0) measured = limits.measure();
-        add_samples(statistics, profile, measured, run);
-        if (before && after) add(*before, *after, run.counters);
+        const double share = std::min(share_before, look_at_cores(stage));
+        if (index % 2 == 0) measured = stage.limits.measure();
+        add_samples(statistics, stage.profile, measured, share, stage.run);
+        stage.floors.add(stage.profile);
+        if (before && after) add(*before, *after, stage.run.counters);
+        return share;
     }
 
     static void add(const HardwareCounters& before, const HardwareCounters& after,
@@ -167,6 +205,7 @@ class SceneBench {
     }
 
     const BenchSettings& settings_;
+    const Machine& machine_;
     const CounterSet& counters_;
     const Listener& listener_;
     const std::atomic<bool>& cancelled_;
@@ -194,7 +233,7 @@ Report measure(const BenchSettings& settings, const Listener& listener,
     for (const std::string& path : settings.scenes) {
         if (cancelled) break;
         reset_peak_memory();
-        SceneBench bench(settings, path, counters, listener, cancelled);
+        SceneBench bench(settings, path, report.machine, counters, listener, cancelled);
         bench.run(unique_name(path, report.scenes), recording);
         report.scenes.push_back(bench.take());
     }

@@ -22,7 +22,11 @@ struct BenchSettings {
     std::vector<int> threads;               // one run each
     int warmups = 2;
     int repetitions = 11;
-    const Report* calls_of = nullptr;  // whose limits' calls are taken, if any
+    // Each run waits at most so long, and measures more repetitions, for as many as asked for
+    // during which nobody else computed on its cores (core_share.h); those that were disturbed
+    // least count.
+    double patience_seconds = 0;
+    const Report* calls_of = nullptr;  // whose limits' calls and best core shares are taken, if any
 };
 
 // The last repetition of each run, one after the other, as slices for a trace.

@@ -1,6 +1,7 @@
 #include "apps/bench/passes.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/profile/timeline.h"
 
@@ -135,7 +136,36 @@ std::vector<std::string> all_passes() {
     return names;
 }
 
+// What the pass's least times make together.
+LoopTime floor_of(Pass pass, const Floors& floors, int threads) {
+    const std::string_view name = renderer::name(pass);
+    if (renderer::is_tile_pass(pass)) {
+        const double milliseconds = floors.milliseconds(profile::Kind::kPass, name);
+        return {milliseconds / threads, milliseconds};
+    }
+    const double alone = floors.milliseconds(profile::Kind::kPhase, name);
+    const double tasks = floors.milliseconds(profile::Kind::kTask, name);
+    return {alone + tasks / threads, alone + tasks};
+}
+
 }  // namespace
+
+void set_floors(const Floors& floors, const Limits::Measured& limits, ThreadRun& run) {
+    std::map<std::string, double> of_pass;
+    for (int i = 0; i < renderer::kPassCount; ++i) {
+        const auto pass = static_cast<Pass>(i);
+        of_pass[text(pass)] = floor_of(pass, floors, run.threads).wall_milliseconds;
+        of_pass["frame"] += of_pass[text(pass)];
+    }
+    for (PassResult& pass : run.passes) {
+        double floor = of_pass[pass.name];
+        for (const std::string& part : pass.parts) floor += of_pass[part];
+        for (Sample& sample : pass.samples) {
+            sample.floor_milliseconds = floor;
+            sample.limit_floor_milliseconds = limit_of(pass.name, limits, run.threads);
+        }
+    }
+}
 
 ThreadRun empty_run(int threads, const Workload& work, const Limits& limits) {
     ThreadRun run{.threads = threads, .passes = passes(work)};
@@ -145,11 +175,12 @@ ThreadRun empty_run(int threads, const Workload& work, const Limits& limits) {
 }
 
 void add_samples(const renderer::FrameStatistics& frame, const profile::Profile& profile,
-                 const Limits::Measured& limits, ThreadRun& run) {
+                 const Limits::Measured& limits, double core_share, ThreadRun& run) {
     const auto add = [&](PassResult& pass, const LoopTime& time) {
         pass.samples.push_back({.milliseconds = time.wall_milliseconds,
                                 .thread_milliseconds = time.thread_milliseconds,
-                                .limit_milliseconds = limit_of(pass.name, limits, run.threads)});
+                                .limit_milliseconds = limit_of(pass.name, limits, run.threads),
+                                .core_share = core_share});
     };
     for (std::size_t i = 0; i < renderer::kPassCount; ++i)
         add(run.passes[i], time_of(static_cast<Pass>(i), frame, profile, run.threads));

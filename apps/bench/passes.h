@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/bench/floors.h"
 #include "apps/bench/limits.h"
 #include "apps/bench/report.h"
 #include "apps/renderer/frame_statistics.h"
@@ -14,6 +15,9 @@ namespace penumbra::bench {
 
 // One repetition: a frame's times, `profile` that recorded it, and the limits beside it.
 void add_samples(const renderer::FrameStatistics& frame, const profile::Profile& profile,
-                 const Limits::Measured& limits, ThreadRun& run);
+                 const Limits::Measured& limits, double core_share, ThreadRun& run);
+
+// What all repetitions of a launch tell together, into its samples.
+void set_floors(const Floors& floors, const Limits::Measured& limits, ThreadRun& run);
 
 }  // namespace penumbra::bench

@@ -39,11 +39,14 @@ class Strength {
         for (std::size_t i = 0; i < values.size(); ++i)
             for (std::size_t k = i + 1; k < values.size(); ++k) {
                 const double difference = values[k] - values[i];
+                if (std::isnan(difference)) continue;
                 if (is_new[i] == is_new[k])
                     within_.push_back(std::abs(difference));
                 else
                     between_.push_back(is_new[k] ? difference : -difference);
             }
+        // Labels may call all values that are there the same, or each another.
+        if (between_.empty() || within_.empty()) return 0;
         const double shift = std::abs(median(between_));
         // Values that are all alike: any shift is infinitely strong.
         constexpr double kLeastScale = 1e-12;
@@ -92,6 +95,24 @@ void shuffle(Labels& labels, std::mt19937_64& random) {
         std::swap(labels[i - 1], labels[static_cast<std::size_t>(random() % i)]);
 }
 
+// Without the launches that say nothing of any quantity.
+struct Present {
+    std::vector<Quantity> quantities;
+    std::size_t old_count = 0;
+};
+
+Present present(const std::vector<Quantity>& all, std::size_t old_count) {
+    Present result{.quantities = std::vector<Quantity>(all.size())};
+    for (std::size_t launch = 0; launch < all.front().size(); ++launch) {
+        if (std::all_of(all.begin(), all.end(),
+                        [&](const Quantity& quantity) { return std::isnan(quantity[launch]); }))
+            continue;
+        for (std::size_t i = 0; i < all.size(); ++i) result.quantities[i].push_back(all[i][launch]);
+        if (launch < old_count) ++result.old_count;
+    }
+    return result;
+}
+
 Labels labels_of(std::size_t launches, std::size_t old_count) {
     Labels labels(launches, 0);
     std::fill(labels.begin() + static_cast<std::ptrdiff_t>(old_count), labels.end(), 1);
@@ -104,9 +125,9 @@ double shift_strength(const Quantity& quantity, std::size_t old_count) {
     return Strength()(quantity, labels_of(quantity.size(), old_count));
 }
 
-std::vector<double> corrected_probabilities(const std::vector<Quantity>& quantities,
-                                            std::size_t old_count) {
-    if (quantities.empty()) return {};
+std::vector<double> corrected_probabilities(const std::vector<Quantity>& all, std::size_t all_old) {
+    if (all.empty()) return {};
+    const auto [quantities, old_count] = present(all, all_old);
     const std::size_t launches = quantities.front().size();
     PENUMBRA_ASSERT(old_count > 1 && launches > old_count + 1, "{} of {}", old_count, launches);
     Labels labels = labels_of(launches, old_count);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 // Probabilities for many comparisons at once.
@@ -8,8 +9,10 @@
 namespace penumbra::bench {
 
 // What was measured of one quantity: `old_count` values of old launches, then those of new ones.
-// All quantities of a comparison come from the same launches, in the same order.
+// All quantities of a comparison come from the same launches, in the same order; kMissing stands
+// where a launch says nothing of one.
 using Quantity = std::vector<double>;
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 // How strong a shift is: the median difference between old and new over the median difference
 // within them. That is Hodges and Lehmann's shift on a scale that a disturbed launch does not move.

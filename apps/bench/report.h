@@ -30,6 +30,10 @@ struct Sample {
     double thread_milliseconds = 0;  // of all threads together
     double limit_milliseconds = 0;   // 0 if the pass has none
     int launch = 0;                  // which start of the program; 0 where there was one
+    // What the pass and its limit cost where nothing disturbs them (floors.h): the same in all
+    // repetitions of a launch; 0 where unknown.
+    double floor_milliseconds = 0, limit_floor_milliseconds = 0;
+    double core_share = 0;  // while it was measured: core_share.h; 0 where unknown
 };
 
 struct PassResult {

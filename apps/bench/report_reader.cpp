@@ -20,6 +20,7 @@ constexpr int kMostInt = std::numeric_limits<int>::max();
 constexpr json::Range kCount{0, 9007199254740992.0};
 constexpr json::Range kMilliseconds{0, 1e9};
 constexpr json::Range kRate{0, 1e18};
+constexpr json::Range kShare{0, 1e6};
 
 std::uint64_t count_of(const Node& node) {
     return static_cast<std::uint64_t>(node.number(kCount));
@@ -105,6 +106,11 @@ Sample read_sample(const Node& entry) {
                   .thread_milliseconds = entry.require("cpu_time").number(kMilliseconds)};
     if (const auto limit = entry.find("limit_ms"))
         sample.limit_milliseconds = limit->number(kMilliseconds);
+    if (const auto floor = entry.find("floor_ms"))
+        sample.floor_milliseconds = floor->number(kMilliseconds);
+    if (const auto floor = entry.find("limit_floor_ms"))
+        sample.limit_floor_milliseconds = floor->number(kMilliseconds);
+    if (const auto share = entry.find("core_share")) sample.core_share = share->number(kShare);
     if (const auto launch = entry.find("launch")) sample.launch = launch->integer(0, kMostInt);
     return sample;
 }

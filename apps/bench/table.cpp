@@ -5,6 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include "apps/bench/undisturbed.h"
+
 namespace penumbra::bench {
 namespace {
 
@@ -63,6 +65,8 @@ void append_run(const ThreadRun& run, std::string& text) {
            "CPU ms", "share", "of limit", "throughput", "limit");
     for (const PassResult& pass : run.passes)
         if (!pass.samples.empty()) append_row(run, pass, text);
+    if (const std::string others = disturbance(run); !others.empty())
+        append(text, "  {}\n", others);
     if (run.counters)
         append(text,
                "  per frame: {:.3f} Gcycle, {:.3f} Ginstruction ({:.2f} per cycle), {:.2f} M "

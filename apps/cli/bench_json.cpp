@@ -105,6 +105,10 @@ ordered_json repetition(const Family& family, std::size_t index) {
     add_work(family.pass, sample.milliseconds, entry);
     add_identity(family, entry);
     entry["launch"] = sample.launch;
+    if (sample.floor_milliseconds > 0) entry["floor_ms"] = sample.floor_milliseconds;
+    if (sample.limit_floor_milliseconds > 0)
+        entry["limit_floor_ms"] = sample.limit_floor_milliseconds;
+    if (sample.core_share > 0) entry["core_share"] = sample.core_share;
     if (family.pass.limit != bench::LimitKind::kNone) {
         entry["limit_ms"] = sample.limit_milliseconds;
         entry["fraction_of_limit"] = bench::fractions(family.pass)[index];

@@ -35,6 +35,7 @@ std::vector<std::string> command(const BenchOptions& o, const fs::path& report) 
     if (!o.threads.empty()) add(argv, "--threads", fmt::format("{}", fmt::join(o.threads, ",")));
     add(argv, "--warmup", std::to_string(o.warmups));
     add(argv, "--repetitions", std::to_string(o.repetitions));
+    add(argv, "--patience", fmt::format("{}", o.patience));
     add(argv, "--isa", o.isa);
     add(argv, "--trace-isa", o.trace_isa);
     return argv;

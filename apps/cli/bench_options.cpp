@@ -48,6 +48,13 @@ void declare_how(CLI::App& command, BenchOptions& o) {
         ->check(in_range(1, 100000))
         ->capture_default_str();
     command
+        .add_option("--patience", o.patience,
+                    "Seconds that each launch may spend, per scene and number of threads, to wait "
+                    "for processors that nobody else uses, and to repeat what was disturbed")
+        ->type_name("SECONDS")
+        ->check(in_range(0, 86400))
+        ->capture_default_str();
+    command
         .add_option("--launches", o.launches,
                     "Start the program that often, one after the other, and measure in each [1; "
                     "with --compare as often as the old report]")
@@ -150,7 +157,8 @@ bench::BenchSettings interpret(const BenchOptions& o) {
                                   .frame = o.frame,
                                   .threads = o.threads,
                                   .warmups = o.warmups,
-                                  .repetitions = o.repetitions};
+                                  .repetitions = o.repetitions,
+                                  .patience_seconds = o.patience};
     if (settings.scenes.empty()) settings.scenes.emplace_back();
     if (!o.size.empty()) read_size(o.size, settings.image);
     settings.image.samples_per_pixel = o.samples_per_pixel;

@@ -18,7 +18,8 @@ struct BenchOptions {
     int samples_per_pixel = 0;
     int warmups = 2;
     int repetitions = 11;
-    int launches = 0;  // 0: as is fit
+    int launches = 0;     // 0: as is fit
+    double patience = 5;  // seconds
     std::string json, csv, trace, html;
     std::string from, calls_of, compare;
     std::optional<double> fail_slower;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "apps/bench/comparison.h"
-#include "apps/bench/launch_values.h"
 #include "core/error.h"
 
 using namespace penumbra;
@@ -35,9 +34,9 @@ struct Model {
     double launches;  // deviation of pass / limit from launch to launch
 };
 constexpr Model kModels[] = {
-    {"setup", 0.28, 0.003, 0.02}, {"rasterize", 2.0, 9.9, 0.02}, {"resolve", 6.2, 9.9, 0.01},
-    {"shade", 10, 1.7, 0.011},    {"rays", 11, 0.8, 0.012},      {"trace", 30, 31, 0.006},
-    {"deposit", 2.5, 0.7, 0.03},  {"noise", 3.2, 0.45, 0.03},    {"frame", 73, 47, 0.01},
+    {"setup", 0.28, 0.003, 0.02}, {"rasterize", 2.0, 9.9, 0.02}, {"resolve", 6.2, 9.9, 0.012},
+    {"shade", 10, 1.7, 0.007},    {"rays", 11, 0.8, 0.008},      {"trace", 30, 31, 0.005},
+    {"deposit", 2.5, 0.7, 0.03},  {"noise", 3.2, 0.45, 0.009},   {"frame", 73, 47, 0.005},
 };
 
 struct Scenario {
@@ -45,7 +44,12 @@ struct Scenario {
     int repetitions = 9;
     std::string slowed;
     double factor = 1;
+    int shared = 0;  // of the launches: with cores that others use, too
 };
+
+// What a neighbour on the same core does to each pass and to its limit.
+constexpr double kSharedPass[] = {1.1, 1.3, 1.35, 1.3, 1.4, 1.2, 1.1, 1.5, 1.25};
+constexpr double kSharedLimit = 1.15;
 
 // One launch in ten is disturbed; the clock wanders from launch to launch and meets both; a
 // repetition in five is interrupted, in the pass or in its limit.
@@ -54,16 +58,21 @@ void add_launch(const Scenario& scenario, int launch, Noise& noise, ThreadRun& r
     for (std::size_t i = 0; i < std::size(kModels); ++i) {
         const Model& model = kModels[i];
         const double deviation = model.launches * (noise.unit() < 0.1 ? 3 : 1);
+        const bool is_shared = launch < scenario.shared;
         const double own = std::exp(deviation * noise.normal()) *
-                           (scenario.slowed == model.name ? scenario.factor : 1);
+                           (scenario.slowed == model.name ? scenario.factor : 1) *
+                           (is_shared ? kSharedPass[i] : 1);
+        const double limit = model.limit * (is_shared ? kSharedLimit : 1);
         const auto time = [&](double milliseconds) {
             const double interrupted = noise.unit() < 0.1 ? 1 + noise.unit() : 1;
             return clock * milliseconds * interrupted * std::exp(0.01 * noise.normal());
         };
         for (int repetition = 0; repetition < scenario.repetitions; ++repetition) {
-            Sample sample{.launch = launch};
+            Sample sample{.launch = launch, .core_share = is_shared ? 2.0 : 3.0};
             sample.milliseconds = time(model.milliseconds * own);
-            sample.limit_milliseconds = time(model.limit);
+            sample.limit_milliseconds = time(limit);
+            sample.floor_milliseconds = clock * model.milliseconds * own;
+            sample.limit_floor_milliseconds = clock * limit;
             run.passes[i].samples.push_back(sample);
         }
     }
@@ -133,6 +142,26 @@ TEST_CASE("where nothing changed, anything at all is reported in less than one o
         alarms += reports_anything(compare(then, report({}, noise))) ? 1 : 0;
     }
     CHECK(alarms == 0);
+}
+
+TEST_CASE("launches with cores that others use, too, change nothing") {
+    Noise noise(12);
+    const Scenario half{.launches = 16, .shared = 8};
+    Report then = report(half, noise);
+    const Comparison unchanged = compare(then, report({.launches = 10}, noise));
+    CHECK_FALSE(reports_anything(unchanged));
+    CHECK(has(unchanged.differences, "room/threads:1: 8 of 16 launches then and 10 of 10 now"));
+    Scenario slowed = half;
+    slowed.slowed = "shade";
+    slowed.factor = 1.05;
+    CHECK(find(compare(then, report(slowed, noise)), "shade").verdict == Verdict::kSlower);
+    // Not told apart, the same launches hide that.
+    for (PassResult& pass : then.scenes[0].runs[0].passes)
+        for (Sample& sample : pass.samples) sample.core_share = 0;
+    Report untold = report(slowed, noise);
+    for (PassResult& pass : untold.scenes[0].runs[0].passes)
+        for (Sample& sample : pass.samples) sample.core_share = 0;
+    CHECK(find(compare(then, untold), "shade").verdict == Verdict::kNoChange);
 }
 
 TEST_CASE("the change is told with its size, its interval and its direction") {
@@ -228,47 +257,4 @@ TEST_CASE("groups, the remainder and what has no limit are not judged") {
     passes[2].name = "other";
     CHECK(compare(then, then).passes.size() == std::size(kModels) - 3);
     CHECK_FALSE(reports_anything(compare(then, then)));
-}
-
-TEST_CASE("a launch is summed up in the way that spreads the launches least") {
-    // The machine runs at half speed for whole repetitions: ratios of the same one are steady.
-    PassResult slow{.limit = LimitKind::kStream};
-    // Interruptions meet the pass alone: its lowest time is steady.
-    PassResult interrupted{.limit = LimitKind::kStream};
-    for (int launch = 0; launch < 5; ++launch)
-        for (int i = 0; i < 5; ++i) {
-            const double speed = (launch + i) % 5 == 0 || launch == 2 ? 2 : 1;
-            slow.samples.push_back({.milliseconds = 10 * speed,
-                                    .limit_milliseconds = i == launch ? 5 * speed : 5.5 * speed,
-                                    .launch = launch});
-            interrupted.samples.push_back({.milliseconds = i == launch ? 10.0 : 13.0 + launch,
-                                           .limit_milliseconds = 5,
-                                           .launch = launch});
-        }
-    const auto steadiest = [](const PassResult& pass) {
-        const ThreadRun run{.threads = 1, .passes = {pass}};
-        return steadiest_values(run, run, pass.name);
-    };
-    for (const double value : steadiest(slow).now)
-        CHECK(value == doctest::Approx(std::log(10 / 5.5)));
-    for (const double value : steadiest(interrupted).now)
-        CHECK(value == doctest::Approx(std::log(2)));
-    slow.samples[0].milliseconds = 0;
-    CHECK(launch_values(slow, slow, Digest::kLowest).empty());
-}
-
-TEST_CASE("a pass is held against the primary rays where its own limit is less steady") {
-    PassResult rays{.name = "rasterize", .limit = LimitKind::kPrimaryRays};
-    PassResult filter{.name = "filter", .limit = LimitKind::kStream};
-    for (int launch = 0; launch < 5; ++launch) {
-        const double neighbours = 1 + 0.1 * launch;  // which the stream does not notice
-        rays.samples.push_back(
-            {.milliseconds = 3, .limit_milliseconds = 9 * neighbours, .launch = launch});
-        filter.samples.push_back(
-            {.milliseconds = 4 * neighbours, .limit_milliseconds = 2, .launch = launch});
-    }
-    const ThreadRun run{.threads = 1, .passes = {rays, filter}};
-    const LaunchValues values = steadiest_values(run, run, "filter");
-    CHECK(values.reference == LimitKind::kPrimaryRays);
-    for (const double value : values.then) CHECK(value == doctest::Approx(std::log(4.0 / 9)));
 }

@@ -133,6 +133,68 @@ TEST_CASE("the passes and what lies between them add up to the frame") {
         }
 }
 
+TEST_CASE("floors are the repetition where there is one, and never above one of several") {
+    const auto is_below = [](double floor, double milliseconds) {
+        return floor <= milliseconds * (1 + 1e-6);
+    };
+    for (const ThreadRun& run : measured().report.scenes[0].runs)
+        for (const PassResult& pass : run.passes) {
+            if (!pass.is_tile_pass) continue;
+            for (const Sample& sample : pass.samples) {
+                CHECK(sample.floor_milliseconds > 0);
+                CHECK(is_below(sample.floor_milliseconds, sample.milliseconds));
+                CHECK(is_below(sample.limit_floor_milliseconds, sample.limit_milliseconds));
+            }
+        }
+    BenchSettings settings = small_settings();
+    settings.scenes = {""};
+    settings.repetitions = 1;
+    const Report once = measure(settings, {}, kGoOn, nullptr);
+    for (const ThreadRun& run : once.scenes[0].runs) {
+        double sum = 0;
+        for (const PassResult& pass : run.passes) {
+            const Sample& sample = pass.samples[0];
+            if (pass.is_tile_pass)
+                CHECK(sample.floor_milliseconds ==
+                      doctest::Approx(sample.milliseconds).epsilon(1e-6));
+            CHECK(sample.limit_floor_milliseconds ==
+                  doctest::Approx(sample.limit_milliseconds).epsilon(1e-6));
+            if (pass.parts.empty() && pass.name != "frame") sum += sample.floor_milliseconds;
+        }
+        CHECK(whole_frame(run).samples[0].floor_milliseconds == doctest::Approx(sum));
+    }
+}
+
+TEST_CASE("every repetition tells what its cores gave it, all passes the same") {
+    for (const ThreadRun& run : measured().report.scenes[0].runs)
+        for (const PassResult& pass : run.passes)
+            for (std::size_t i = 0; i < pass.samples.size(); ++i) {
+                CHECK(pass.samples[i].core_share > 0);
+                CHECK(pass.samples[i].core_share == run.passes[0].samples[i].core_share);
+            }
+}
+
+TEST_CASE("what cores of our own give is known from an older report of this processor") {
+    // Of cores that gave more than any can: every repetition is disturbed.
+    Report older = measured().report;
+    for (PassResult& pass : older.scenes[0].runs[0].passes)
+        for (Sample& sample : pass.samples) sample.core_share = 1e9;
+    BenchSettings settings = small_settings();
+    settings.scenes = {""};
+    settings.threads = {1};
+    settings.calls_of = &older;
+    const auto second_line = [&] {
+        std::string last;
+        const Report report = measure(
+            settings, [&](const std::string& line) { last = line; }, kGoOn, nullptr);
+        CHECK(whole_frame(report.scenes[0].runs[0]).samples.size() == 2);
+        return last;
+    };
+    CHECK(second_line() == "built-in, 1 thread: 1 of 2, 1 more were disturbed");
+    older.machine.processor = "another";
+    CHECK(second_line() == "built-in, 1 thread: 2 of 2");
+}
+
 TEST_CASE("groups are the sums of their passes") {
     const ThreadRun& run = measured().report.scenes[0].runs[1];
     int groups = 0;

@@ -87,6 +87,35 @@ TEST_CASE("a quantity told twice counts once: correlation is not paid for") {
     for (const double p : twice) CHECK(p == alone[0]);
 }
 
+TEST_CASE("launches that say nothing are as if they had not been") {
+    std::mt19937_64 random(21);
+    std::vector<Quantity> all = quantities(3, 10, random);
+    for (std::size_t launch = 5; launch < 10; ++launch) all[1][launch] += 3;
+    const std::vector<double> p = corrected_probabilities(all, 5);
+    std::vector<Quantity> with_holes = all;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        with_holes[i].insert(with_holes[i].begin() + 7, kMissing);  // a new one
+        with_holes[i].insert(with_holes[i].begin() + 2, kMissing);  // an old one
+        CHECK(shift_strength(with_holes[i], 6) == shift_strength(all[i], 5));
+    }
+    CHECK(corrected_probabilities(with_holes, 6) == p);
+}
+
+TEST_CASE("a launch that says nothing of one quantity counts for the others") {
+    // The first one's shift needs the launches that the second one lacks.
+    std::vector<Quantity> two(2);
+    std::mt19937_64 random(23);
+    for (int launch = 0; launch < 16; ++launch) {
+        two[0].push_back(noise(random) + (launch < 8 ? 0 : 30));
+        two[1].push_back(launch % 4 == 0 ? kMissing : noise(random));
+    }
+    const std::vector<double> p = corrected_probabilities(two, 8);
+    CHECK(p[0] < 0.001);
+    CHECK(p[1] > 0.05);
+    // Where a quantity is missing wherever labels differ, nothing can be said.
+    CHECK(shift_strength({1, 2, 3, kMissing, kMissing, kMissing}, 3) == 0);
+}
+
 TEST_CASE("random labels come near to all of them, and are the same in each call") {
     std::mt19937_64 random(13);
     std::vector<Quantity> one = quantities(1, 18, random);  // 48620 ways, of which some are drawn

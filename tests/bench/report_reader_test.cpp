@@ -27,6 +27,9 @@ ordered_json entry(const std::string& pass, int launch, double milliseconds, dou
             {"limit_call", "stream"},
             {"launch", launch},
             {"limit_ms", limit},
+            {"floor_ms", 0.75 * milliseconds},
+            {"limit_floor_ms", 0.5 * limit},
+            {"core_share", 2.5},
             {"a key of a later version", 1}};
 }
 
@@ -110,7 +113,21 @@ TEST_CASE("a report is read as it was written: machine, scenes, runs, passes, re
     CHECK(trace.samples[1].thread_milliseconds == 82);
     CHECK(trace.samples[1].limit_milliseconds == 31);
     CHECK(trace.samples[1].launch == 1);
+    CHECK(trace.samples[1].floor_milliseconds == 30.75);
+    CHECK(trace.samples[1].limit_floor_milliseconds == 15.5);
+    CHECK(trace.samples[1].core_share == 2.5);
     CHECK_FALSE(whole_frame(run).is_tile_pass);
+}
+
+TEST_CASE("a report from before floors and shares were measured is read without them") {
+    ordered_json root = document();
+    for (ordered_json& each : root["benchmarks"])
+        for (const char* key : {"floor_ms", "limit_floor_ms", "core_share"}) each.erase(key);
+    const Report report = parse_report("old.json", root.dump());
+    const Sample& sample = report.scenes[0].runs[0].passes[0].samples[0];
+    CHECK(sample.floor_milliseconds == 0);
+    CHECK(sample.limit_floor_milliseconds == 0);
+    CHECK(sample.core_share == 0);
 }
 
 TEST_CASE("what is wrong in a report is told with its place") {

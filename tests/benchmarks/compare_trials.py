@@ -18,7 +18,8 @@ SCENE = os.path.join(os.path.dirname(__file__), "../../data/scenes/teapot/teapot
 
 
 def launch(o, work, calls, out):
-    subprocess.run([o.slowed_bench, o.scene, str(o.width), str(o.height), str(o.repetitions), o.slowed, str(work),
+    subprocess.run([o.slowed_bench, o.scene, str(o.width), str(o.height), str(o.repetitions),
+                    str(o.patience), o.slowed, str(work),
                     calls, out], check=True)
     with open(out) as file:
         return json.load(file)
@@ -72,6 +73,7 @@ def options():
     parser.add_argument("--trials", type=int, default=20)
     parser.add_argument("--launches", type=int, default=10)
     parser.add_argument("--repetitions", type=int, default=11)
+    parser.add_argument("--patience", type=float, default=5, help="seconds per launch")
     parser.add_argument("--width", type=int, default=640)
     parser.add_argument("--height", type=int, default=360)
     parser.add_argument("--pass", dest="slowed", default="shade")

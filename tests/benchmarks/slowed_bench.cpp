@@ -1,7 +1,8 @@
 // One launch of `penumbra bench` on one scene, in which one pass of the tiles does more work than
 // it has to: so that it can be tried whether `--compare` finds that. The work is a fixed number of
 // multiply-adds per tile (per tile, light and sample for `trace`; twice that for `rays`).
-// Usage: slowed_bench SCENE WIDTH HEIGHT REPETITIONS PASS MULTIPLY_ADDS CALLS_OF|- OUT.json
+// Usage: slowed_bench SCENE WIDTH HEIGHT REPETITIONS PATIENCE PASS MULTIPLY_ADDS CALLS_OF|-
+// OUT.json
 
 #include <atomic>
 #include <cstdio>
@@ -30,13 +31,13 @@ float multiply_adds(long count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 9) {
+    if (argc != 10) {
         static_cast<void>(
-            std::fputs("expected 8 arguments, see the source's first lines\n", stderr));
+            std::fputs("expected 9 arguments, see the source's first lines\n", stderr));
         return 2;
     }
-    const std::string slowed = argv[5];
-    const long work = std::stol(argv[6]);
+    const std::string slowed = argv[6];
+    const long work = std::stol(argv[7]);
     std::atomic<float> kept = 0;  // so that no compiler finds the work useless
     const renderer::PassObserver slow_down = [&](renderer::Pass pass) {
         if (renderer::name(pass) == slowed)
@@ -46,12 +47,13 @@ int main(int argc, char** argv) {
     settings.image.width = std::stoi(argv[2]);
     settings.image.height = std::stoi(argv[3]);
     settings.repetitions = std::stoi(argv[4]);
+    settings.patience_seconds = std::stod(argv[5]);
     settings.execution.on_pass = &slow_down;
     std::optional<bench::Report> calls;
-    if (std::string(argv[7]) != "-") calls = bench::read_report(argv[7]);
+    if (std::string(argv[8]) != "-") calls = bench::read_report(argv[8]);
     settings.calls_of = calls ? &*calls : nullptr;
     const std::atomic<bool> cancelled = false;
     const bench::Report report = bench::measure(settings, {}, cancelled, nullptr);
-    image::write_file_atomically(argv[8], cli::benchmark_json(report));
+    image::write_file_atomically(argv[9], cli::benchmark_json(report));
     return 0;
 }

@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 
 bench() { "$penumbra" bench "$@" >stdout 2>stderr; }
-small() { bench --size 64x64 --threads 1 --repetitions 2 --warmup 1 "$@"; }
+small() { bench --size 64x64 --threads 1 --repetitions 2 --warmup 1 --patience 0 "$@"; }
 holds() { local file=$1 text; shift; for text in "$@"; do grep -qF -- "$text" "$file" || { echo "  not in $file: $text"; return 1; }; done; }
 exits_with() { local code=0 expected=$1; shift; "$@" || code=$?; [ "$code" -eq "$expected" ] || { echo "  exit code $code"; return 1; }; }
 
@@ -27,7 +27,7 @@ check "all of them" test "$(calls two.json)" = "$(calls five.json)"
 check "too few launches are refused" exits_with 2 bench --from two.json --compare five.json
 check "with what is needed" holds stderr "expected at least 5 launches of the program, got 2" "--launches"
 check "before anything is measured" exits_with 2 small --compare two.json
-check "another size" exits_with 2 bench --size 96x64 --threads 1 --repetitions 1 --compare five.json --json kept.json
+check "another size" exits_with 2 bench --size 96x64 --threads 1 --repetitions 1 --patience 0 --compare five.json --json kept.json
 check "is told" holds stderr "size 64 x 64 then, 96 x 64 now"
 check "what was measured is kept" test -s kept.json
 check "--fail-slower alone" exits_with 2 small --fail-slower 3

@@ -16,7 +16,7 @@ cat >shot.json <<'JSON'
 JSON
 sed 's/"lights": \[.*/"lights": [ ],/; /"radiance"/d' shot.json >dark.json
 
-bench() { "$penumbra" bench "$@" --repetitions 2 --warmup 1 >stdout 2>stderr; }
+bench() { "$penumbra" bench "$@" --repetitions 2 --warmup 1 --patience 0 >stdout 2>stderr; }
 holds() { local file=$1 text; shift; for text in "$@"; do grep -qF -- "$text" "$file" || { echo "  not in $file: $text"; return 1; }; done; }
 
 # ---- the table and its files
@@ -62,6 +62,8 @@ for name, members in families.items():
     for e in runs:
         if "limit" in e:
             assert abs(e["fraction_of_limit"] * e["real_time"] - e["limit_ms"]) <= 1e-9 * e["limit_ms"]
+            assert 0 < e["limit_floor_ms"] <= e["limit_ms"] * (1 + 1e-6)
+        assert e["core_share"] > 0 and e.get("floor_ms", 1) > 0
 assert families["shot/threads:2/trace"][0]["rays_per_second"] > 0
 assert "limit" not in families["shot/threads:1/evaluate"][0]
 PYTHON
@@ -119,13 +121,14 @@ check "no threads" refuses 2 "--threads" "$penumbra" bench --threads 0
 check "words for threads" refuses 2 "--threads" "$penumbra" bench --threads 1,two
 check "an empty list" refuses 2 "--threads" "$penumbra" bench --threads ""
 check "no repetitions" refuses 2 "--repetitions" "$penumbra" bench --repetitions 0
+check "less patience than none" refuses 2 "--patience" "$penumbra" bench --patience -1
 check "a size that is none" refuses 2 "--size" "$penumbra" bench --size 96
 check "a size with more behind it" refuses 2 "--size" "$penumbra" bench --size 96x64x3
 check "one file for two reports" refuses 2 "--csv" "$penumbra" bench --json b.txt --csv b.txt
 check "a report on a model" refuses 2 ".csv" "$penumbra" bench shot.json --csv model.obj
 check "a report on the scene" refuses 2 "--json" "$penumbra" bench shot.json --json shot.json
 check "a folder that cannot be written" refuses 3 "/proc/b.json" "$penumbra" bench shot.json --size 64x64 --threads 1 \
-    --repetitions 1 --json /proc/b.json
+    --repetitions 1 --patience 0 --json /proc/b.json
 interrupted() {
     local status=0
     "$penumbra" bench shot.json --repetitions 100000 --json i.json >stdout 2>stderr &
@@ -136,7 +139,7 @@ interrupted() {
 }
 check "Ctrl-C ends with 130 and writes nothing" interrupted
 check "--help explains every option" bash -c \
-    "for o in --threads --warmup --repetitions --frame --size --spp --isa --trace-isa --json --csv --trace; do
+    "for o in --threads --warmup --repetitions --patience --frame --size --spp --isa --trace-isa --json --csv --trace; do
         '$penumbra' bench --help | grep -q -- \"\$o\" || { echo \"  \$o\"; exit 1; }
      done"
 
