@@ -153,6 +153,21 @@ void add_counters(const Node& context, Report& report) {
     }
 }
 
+bool has_same_launches(const PassResult& a, const PassResult& b) {
+    return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                      [](const Sample& x, const Sample& y) { return x.launch == y.launch; });
+}
+
+void require_same_launches(const SceneResult& scene, const ThreadRun& run,
+                           const std::filesystem::path& file) {
+    for (const PassResult& pass : run.passes)
+        if (!has_same_launches(pass, run.passes.front()))
+            throw InputError(file, benchmark_name(scene, run, pass),
+                             fmt::format("expected its repetitions in the same launches as those "
+                                         "of {}",
+                                         run.passes.front().name));
+}
+
 // What all that follows relies on: every pass has samples, the same repetitions of the same
 // launches.
 void require_even(const Report& report, const std::filesystem::path& file) {
@@ -170,6 +185,7 @@ void require_even(const Report& report, const std::filesystem::path& file) {
                         file, benchmark_name(scene, run, pass),
                         fmt::format("expected {} repetitions, one after the other, got {}",
                                     run.passes.back().samples.size(), pass.samples.size()));
+        for (const ThreadRun& run : scene.runs) require_same_launches(scene, run, file);
     }
 }
 

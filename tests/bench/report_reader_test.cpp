@@ -165,6 +165,11 @@ TEST_CASE("a report with holes is refused: each pass has every repetition once")
           std::string::npos);
 
     root = document();
+    root["benchmarks"][1]["launch"] = 0;
+    CHECK(complaint(root).find("frame: expected its repetitions in the same launches as those of "
+                               "trace") != std::string::npos);
+
+    root = document();
     root["benchmarks"].push_back(entry("trace", 2, 42, 32));
     CHECK(complaint(root) != "");
 
