@@ -56,8 +56,12 @@ const OptionEntry* find_option(const Place& place, const std::string& name) {
     return nullptr;
 }
 
-// An option without its value.
+// An option without its value, or with several: "--spp: At Most 1 required but received 2".
 std::string explain_mismatch(const Place& place, const std::string& message) {
+    constexpr std::string_view kAtMostOne = ": At Most 1 required but received ";
+    if (const std::size_t at = message.find(kAtMostOne); at != std::string::npos)
+        return fmt::format("{}: expected one value, got {}", message.substr(0, at),
+                           message.substr(at + kAtMostOne.size()));
     const std::string name = message.substr(0, message.find(':'));
     const OptionEntry* const option = find_option(place, name);
     if (!option || !message.ends_with("missing")) return message;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -148,6 +149,7 @@ void declare_light(CLI::App& command, RenderOptions& o) {
     command
         .add_option("--seed", o.image.seed,
                     "Seed of the random numbers: another one gives other noise")
+        ->check(in_range(0, std::numeric_limits<std::uint32_t>::max()))
         ->capture_default_str();
 }
 

@@ -133,7 +133,9 @@ bad_option "an empty crop" "--crop" --crop 4,4,4,8
 bad_option "an unknown AOV" "--aov" --aov depth
 bad_option "too many rays" "--spp" --spp 65
 bad_option "half a ray" "--spp: expected a whole number, 1 to 64, got \"4.5\"" --spp 4.5
-bad_option "a word for a number" "--seed: expected a whole number, got \"x\"" --seed x
+bad_option "a word for a number" "--seed: expected a number, 0 to 4294967295, got \"x\"" --seed x
+bad_option "a seed that is too large" "--seed: expected a number, 0 to 4294967295" --seed 4294967296
+bad_option "an option twice" "--spp: expected one value, got 2" --spp 1 --spp 2
 bad_option "no threads" "--threads" --threads 0
 bad_option "an unknown compression" "--compression" --compression lzma
 bad_option "a lossy compression of positions" "--compression" --compression dwaa --aov P
