@@ -27,6 +27,41 @@ int count_launches(const PassResult& pass) {
     return static_cast<int>(samples.size());
 }
 
+const SceneResult* find_scene(const Report& report, const std::string& name) {
+    const auto found = std::find_if(report.scenes.begin(), report.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == name; });
+    return found == report.scenes.end() ? nullptr : &*found;
+}
+
+const ThreadRun* find_run(const SceneResult& scene, int threads) {
+    const auto found = std::find_if(scene.runs.begin(), scene.runs.end(),
+                                    [&](const ThreadRun& r) { return r.threads == threads; });
+    return found == scene.runs.end() ? nullptr : &*found;
+}
+
+// Why two results are not of the same work, or "".
+std::string mismatch(const SceneResult& then, const SceneResult& now) {
+    std::string text;
+    const auto require = [&](const char* what, const auto& a, const auto& b) {
+        if (a == b) return;
+        if (!text.empty()) text += ", ";
+        text += fmt::format("{} {} then, {} now", what, a, b);
+    };
+    require("size", fmt::format("{} x {}", then.width, then.height),
+            fmt::format("{} x {}", now.width, now.height));
+    require("frame", then.frame, now.frame);
+    require("samples per pixel", then.samples_per_pixel, now.samples_per_pixel);
+    require("triangles", then.triangles, now.triangles);
+    require("lights", then.lights, now.lights);
+    return text;
+}
+
+[[noreturn]] void refuse(const std::vector<std::string>& reasons) {
+    std::string why;
+    for (const std::string& reason : reasons) why += "; " + reason;
+    throw InputError("the reports have nothing in common that can be compared" + why);
+}
+
 class Comparer {
   public:
     Comparer(const Report& old_report, const Report& new_report)
@@ -39,7 +74,7 @@ class Comparer {
         for (const SceneResult& scene : new_.scenes) add_scene(scene);
         for (const SceneResult& scene : old_.scenes)
             if (!find_scene(new_, scene.name)) leave_out(scene.name, "only in the old report");
-        if (candidates_.empty()) refuse();
+        if (candidates_.empty()) refuse(result_.left_out);
         judge();
         return std::move(result_);
     }
@@ -77,29 +112,6 @@ class Comparer {
                             machine.load.front(), machine.processors));
     }
 
-    static const SceneResult* find_scene(const Report& report, const std::string& name) {
-        const auto found = std::find_if(report.scenes.begin(), report.scenes.end(),
-                                        [&](const SceneResult& s) { return s.name == name; });
-        return found == report.scenes.end() ? nullptr : &*found;
-    }
-
-    // Why two results are not of the same work, or "".
-    static std::string mismatch(const SceneResult& then, const SceneResult& now) {
-        std::string text;
-        const auto require = [&](const char* what, const auto& a, const auto& b) {
-            if (a == b) return;
-            if (!text.empty()) text += ", ";
-            text += fmt::format("{} {} then, {} now", what, a, b);
-        };
-        require("size", fmt::format("{} x {}", then.width, then.height),
-                fmt::format("{} x {}", now.width, now.height));
-        require("frame", then.frame, now.frame);
-        require("samples per pixel", then.samples_per_pixel, now.samples_per_pixel);
-        require("triangles", then.triangles, now.triangles);
-        require("lights", then.lights, now.lights);
-        return text;
-    }
-
     void add_scene(const SceneResult& now) {
         const SceneResult* const then = find_scene(old_, now.name);
         if (!then) return leave_out(now.name, "only in the new report");
@@ -107,13 +119,11 @@ class Comparer {
         if (!different.empty()) return leave_out(now.name, different);
         note(now.name + ": shadow rays", then->shadow_rays, now.shadow_rays);
         for (const ThreadRun& run : now.runs) {
-            const auto same = std::find_if(then->runs.begin(), then->runs.end(),
-                                           [&](const auto& r) { return r.threads == run.threads; });
-            if (same == then->runs.end())
+            if (const ThreadRun* const same = find_run(*then, run.threads))
+                add_run(now, *same, run);
+            else
                 leave_out(fmt::format("{}/threads:{}", now.name, run.threads),
                           "only in the new report");
-            else
-                add_run(now, *same, run);
         }
     }
 
@@ -161,12 +171,6 @@ class Comparer {
         shown.high = std::expm1(shift.high);
         shown.rank_probability = mann_whitney(values.then, values.now).probability;
         candidates_.push_back({std::move(shown), runs.among_all(values)});
-    }
-
-    [[noreturn]] void refuse() const {
-        std::string why;
-        for (const std::string& reason : result_.left_out) why += "; " + reason;
-        throw InputError("the reports have nothing in common that can be compared" + why);
     }
 
     void judge() {
@@ -226,6 +230,24 @@ int require_launches(const Report& report, const std::string& which) {
             "do not tell how another one's would be; measure with --launches",
             which, kFewestLaunches, launches));
     return launches;
+}
+
+void require_common(const Report& old_report, const Report& new_report) {
+    std::vector<std::string> reasons;
+    for (const SceneResult& now : new_report.scenes) {
+        const SceneResult* const then = find_scene(old_report, now.name);
+        const std::string why = then ? mismatch(*then, now) : "only in the new report";
+        if (!why.empty()) {
+            reasons.push_back(fmt::format("{}: {}", now.name, why));
+            continue;
+        }
+        for (const ThreadRun& run : now.runs) {
+            if (find_run(*then, run.threads)) return;
+            reasons.push_back(
+                fmt::format("{}/threads:{}: only in the new report", now.name, run.threads));
+        }
+    }
+    refuse(reasons);
 }
 
 Comparison compare(const Report& old_report, const Report& new_report) {

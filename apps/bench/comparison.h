@@ -56,6 +56,10 @@ struct Comparison {
 // many each; returns how many. `which` names the report in the message.
 int require_launches(const Report& report, const std::string& which);
 
+// Throws InputError unless a scene of the same work was measured in both on as many threads: before
+// all launches of the new report are measured in vain.
+void require_common(const Report& old_report, const Report& new_report);
+
 // Compares what is in both. Throws InputError if a report has too few launches, or nothing can be
 // compared.
 [[nodiscard]] Comparison compare(const Report& old_report, const Report& new_report);

@@ -124,6 +124,7 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
     : work_(workload),
       bare_(bare),
       isa_(settings.isa),
+      cancelled_(settings.cancelled),
       arena_(arena),
       profile_(profile),
       demands_(demands(workload)),
@@ -154,27 +155,35 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
 
 LoopTime Limits::primary(shadow::RayCall call) {
     return timed(profile_, kPrimaryRaysPhase, 1, [&] {
-        arena_.for_each(static_cast<int>(work_.primary.size()), [&](int index, int) {
-            bare_.intersect(work_.primary[static_cast<std::size_t>(index)], call);
-        });
+        arena_.for_each(
+            static_cast<int>(work_.primary.size()),
+            [&](int index, int) {
+                bare_.intersect(work_.primary[static_cast<std::size_t>(index)], call);
+            },
+            cancelled_);
     });
 }
 
 LoopTime Limits::shadow(shadow::RayCall call) {
     const LoopTime kept = timed(profile_, kShadowRaysPhase, 1, [&] {
-        arena_.for_each(static_cast<int>(work_.shadow.size()), [&](int index, int worker) {
-            bare_.occlude(work_.shadow[static_cast<std::size_t>(index)], call,
-                          scratch_[static_cast<std::size_t>(worker)]);
-        });
+        arena_.for_each(
+            static_cast<int>(work_.shadow.size()),
+            [&](int index, int worker) {
+                bare_.occlude(work_.shadow[static_cast<std::size_t>(index)], call,
+                              scratch_[static_cast<std::size_t>(worker)]);
+            },
+            cancelled_);
     });
     return scaled(kept, work_.shadow_scale);
 }
 
 LoopTime Limits::stream(Stream& loop, StreamStores stores, const char* name) {
+    if (is_cancelled()) return {};
     return timed(profile_, name, loop.rounds, [&] { loop.triad.run(arena_, stores); });
 }
 
 LoopTime Limits::arithmetic(const Arithmetic& loop, const char* name) {
+    if (is_cancelled()) return {};
     return timed(profile_, name, loop.rounds,
                  [&] { multiply_adds(loop.multiply_adds, isa_, arena_); });
 }

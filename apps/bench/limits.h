@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ struct LimitCalls {
 struct LimitSettings {
     simd::Isa isa;
     LimitCalls calls;
+    const std::atomic<bool>* cancelled = nullptr;  // where it becomes true, times mean nothing
 };
 
 class Limits {
@@ -65,6 +67,7 @@ class Limits {
     [[nodiscard]] std::string arithmetic_call() const { return std::string(simd::name(isa_)); }
 
   private:
+    [[nodiscard]] bool is_cancelled() const { return cancelled_ && cancelled_->load(); }
     Measured measure_once();
     LoopTime primary(shadow::RayCall call);
     LoopTime shadow(shadow::RayCall call);
@@ -84,6 +87,7 @@ class Limits {
     const Workload& work_;
     const shadow::BareRays& bare_;
     simd::Isa isa_;
+    const std::atomic<bool>* cancelled_;
     const parallel::Arena& arena_;
     profile::Profile& profile_;
     Demands demands_;

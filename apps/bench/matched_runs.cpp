@@ -32,6 +32,11 @@ Quantity MatchedRuns::among_all(const LaunchValues& values) const {
 MatchedRuns match(const ThreadRun& then, const ThreadRun& now, bool is_same_processor) {
     double old_best = best_core_share(then);
     double new_best = best_core_share(now);
+    if (old_best <= 0 || new_best <= 0)
+        return {
+            .then = side(then, then),
+            .now = side(now, now),
+            .note = "whether others used the cores was not measured; all launches are compared"};
     if (is_same_processor) old_best = new_best = std::max(old_best, new_best);
     MatchedRuns matched{.then = side(undisturbed(then, old_best), then),
                         .now = side(undisturbed(now, new_best), now)};

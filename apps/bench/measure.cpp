@@ -111,10 +111,11 @@ class SceneBench {
 
         parallel::Arena arena(threads);
         prepare_limits(arena);
+        if (cancelled_) return;
         arena.record(&profile);
-        LimitSettings limit_settings{.isa = execution.isa.value_or(simd::best_isa())};
-        if (settings_.calls_of)
-            limit_settings.calls = limit_calls(*settings_.calls_of, result_.name, threads);
+        const LimitSettings limit_settings{.isa = execution.isa.value_or(simd::best_isa()),
+                                           .calls = known_calls(threads),
+                                           .cancelled = &cancelled_};
         tell(threads, "looking for the quickest calls");
         Limits limits(*workload_, *bare_, limit_settings, arena, profile);
         Stage stage{profile, renderer, arena, limits, empty_run(threads, *workload_, limits), {}};
@@ -128,6 +129,7 @@ class SceneBench {
             if (cancelled_) return;
             profile.clear();
             patience.add(repeat(patience.count(), stage));
+            if (cancelled_) return;
         }
         set_floors(stage.floors, limits.floors(stage.floors), stage.run);
         if (stage.run.counters) divide(patience.count(), *stage.run.counters);
@@ -136,11 +138,22 @@ class SceneBench {
             least_disturbed(stage.run, static_cast<std::size_t>(settings_.repetitions)));
     }
 
-    // What cores gave when they were our own, as far as an older report of this processor knows.
+    // The calls of the first report that has this run.
+    [[nodiscard]] LimitCalls known_calls(int threads) const {
+        for (const Report* const report : settings_.calls_of) {
+            LimitCalls calls = limit_calls(*report, result_.name, threads);
+            if (!calls.primary.empty()) return calls;
+        }
+        return {};
+    }
+
+    // What cores gave when they were our own, as far as older reports of this processor know.
     [[nodiscard]] double known_share(int threads) const {
-        const Report* const older = settings_.calls_of;
-        if (!older || older->machine.processor != machine_.processor) return 0;
-        return best_core_share(*older, result_.name, threads);
+        double best = 0;
+        for (const Report* const report : settings_.calls_of)
+            if (report->machine.processor == machine_.processor)
+                best = std::max(best, best_core_share(*report, result_.name, threads));
+        return best;
     }
 
     // The frame and its limits in turns, so that whatever slows the machine down meets both.
@@ -181,8 +194,9 @@ class SceneBench {
 
     void prepare_limits(const parallel::Arena& arena) {
         if (workload_) return;
-        workload_ = std::make_unique<Workload>(
-            record_workload(scene_, settings_.image, settings_.execution, frame_));
+        workload_ = std::make_unique<Workload>(record_workload(
+            scene_, settings_.image, settings_.execution, frame_, kMemoryOfRays, &cancelled_));
+        if (cancelled_) return;
         bare_ = std::make_unique<shadow::BareRays>(workload_->view, settings_.execution.trace_isa,
                                                    arena);
         const renderer::ImageSettings image = renderer::completed(scene_, settings_.image);

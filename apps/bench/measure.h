@@ -26,7 +26,8 @@ struct BenchSettings {
     // during which nobody else computed on its cores (core_share.h); those that were disturbed
     // least count.
     double patience_seconds = 0;
-    const Report* calls_of = nullptr;  // whose limits' calls and best core shares are taken, if any
+    // The first one's calls of limits are taken that has them, the best one's core shares.
+    std::vector<const Report*> calls_of;
 };
 
 // The last repetition of each run, one after the other, as slices for a trace.

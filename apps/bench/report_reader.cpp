@@ -26,6 +26,16 @@ std::uint64_t count_of(const Node& node) {
     return static_cast<std::uint64_t>(node.number(kCount));
 }
 
+// Shorter ones are no times, and ratios of such are no numbers.
+constexpr double kLeastMilliseconds = 1e-9;
+
+double milliseconds(const Node& node) {
+    const double value = node.number(kMilliseconds);
+    if (value > 0 && value < kLeastMilliseconds)
+        node.expected(fmt::format("0 or at least {} milliseconds", kLeastMilliseconds));
+    return value;
+}
+
 void read_caches(const Node& context, Machine& machine) {
     const auto caches = context.find("caches");
     if (!caches) return;
@@ -102,14 +112,12 @@ PassResult read_pass(const Node& entry) {
 
 Sample read_sample(const Node& entry) {
     if (const Node unit = entry.require("time_unit"); unit.text() != "ms") unit.expected("\"ms\"");
-    Sample sample{.milliseconds = entry.require("real_time").number(kMilliseconds),
-                  .thread_milliseconds = entry.require("cpu_time").number(kMilliseconds)};
-    if (const auto limit = entry.find("limit_ms"))
-        sample.limit_milliseconds = limit->number(kMilliseconds);
-    if (const auto floor = entry.find("floor_ms"))
-        sample.floor_milliseconds = floor->number(kMilliseconds);
+    Sample sample{.milliseconds = milliseconds(entry.require("real_time")),
+                  .thread_milliseconds = milliseconds(entry.require("cpu_time"))};
+    if (const auto limit = entry.find("limit_ms")) sample.limit_milliseconds = milliseconds(*limit);
+    if (const auto floor = entry.find("floor_ms")) sample.floor_milliseconds = milliseconds(*floor);
     if (const auto floor = entry.find("limit_floor_ms"))
-        sample.limit_floor_milliseconds = floor->number(kMilliseconds);
+        sample.limit_floor_milliseconds = milliseconds(*floor);
     if (const auto share = entry.find("core_share")) sample.core_share = share->number(kShare);
     if (const auto launch = entry.find("launch")) sample.launch = launch->integer(0, kMostInt);
     return sample;

@@ -33,8 +33,8 @@ ThreadRun only(const ThreadRun& run, const std::vector<std::size_t>& kept) {
 double best_core_share(const ThreadRun& run) {
     std::vector<double> shares;
     for (const Sample& sample : repetitions(run)) shares.push_back(sample.core_share);
-    if (shares.empty()) return 0;
     std::sort(shares.begin(), shares.end());
+    if (shares.empty() || shares.front() <= 0) return 0;
     return quantile(shares, 0.9);
 }
 

@@ -16,7 +16,7 @@ inline constexpr double kLeastShare = 0.95;
 inline constexpr int kFewestUndisturbed = 3;
 
 // That of cores of our own, if one repetition in ten had them: the upper decile of all repetitions'
-// shares. 0 where the report does not tell.
+// shares. 0 unless the report tells those of all.
 [[nodiscard]] double best_core_share(const ThreadRun& run);
 // Of that scene's run with so many threads; 0 if there is none.
 [[nodiscard]] double best_core_share(const Report& report, const std::string& scene, int threads);

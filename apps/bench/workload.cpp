@@ -68,7 +68,7 @@ void count_scene(Workload& work) {
 
 Workload record_workload(const Scene& scene, const renderer::ImageSettings& image,
                          const renderer::ExecutionSettings& execution, int frame,
-                         std::uint64_t memory) {
+                         std::uint64_t memory, const std::atomic<bool>* cancelled) {
     const renderer::ImageSettings all = renderer::completed(scene, image);
     Workload work;
     evaluate(scene, times_of_frame(scene.animation, frame),
@@ -94,7 +94,7 @@ Workload record_workload(const Scene& scene, const renderer::ImageSettings& imag
     observed.on_rays = &keep;
     renderer::Renderer renderer(scene, image, observed);
     renderer::Film film;
-    renderer.render(frame, {renderer::Aov::kBeauty}, film);
+    renderer.render(frame, {renderer::Aov::kBeauty}, film, cancelled);
 
     std::uint64_t kept = 0;
     const parallel::TileGrid grid(film.window);

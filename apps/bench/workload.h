@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -25,9 +26,13 @@ struct Workload {
     std::uint64_t shaded_vertices = 0;  // of those lights
 };
 
-// Renders the frame once and keeps its rays. `memory` is what they may take, in bytes.
+inline constexpr std::uint64_t kMemoryOfRays = std::uint64_t{2} << 30;
+
+// Renders the frame once and keeps its rays. `memory` is what they may take, in bytes. Where
+// `cancelled`, if any, becomes true, it returns early with a part of them.
 [[nodiscard]] Workload record_workload(const Scene& scene, const renderer::ImageSettings& image,
                                        const renderer::ExecutionSettings& execution, int frame,
-                                       std::uint64_t memory = std::uint64_t{2} << 30);
+                                       std::uint64_t memory = kMemoryOfRays,
+                                       const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace penumbra::bench

@@ -41,8 +41,9 @@ void require_files_of_their_own(const BenchOptions& options) {
     if (!options.trace.empty()) outputs.emplace_back("--trace", options.trace);
     if (!options.html.empty()) outputs.emplace_back("--html", options.html);
     std::vector<std::filesystem::path> inputs{options.scenes.begin(), options.scenes.end()};
-    for (const std::string& report : {options.compare, options.from, options.calls_of})
+    for (const std::string& report : {options.compare, options.from})
         if (!report.empty()) inputs.emplace_back(report);
+    inputs.insert(inputs.end(), options.calls_of.begin(), options.calls_of.end());
     require_distinct(outputs, inputs);
     require_endings(outputs);
 }
@@ -78,6 +79,9 @@ void write_files(const BenchOptions& options, const Results& results) {
 
 // As many as the old report has, unless told.
 int launches_of(const BenchOptions& options, const std::optional<bench::Report>& old) {
+    if (old && options.launches > 0 && options.launches < bench::kFewestLaunches)
+        throw InputError(fmt::format("--launches: expected at least {} with --compare, got {}",
+                                     bench::kFewestLaunches, options.launches));
     if (options.launches > 0) return options.launches;
     return old ? old->launches : 1;
 }
@@ -89,10 +93,13 @@ bench::Report obtain_report(const BenchOptions& options, const std::optional<ben
     const bench::Listener listener = status_line();
     const auto measured = [&] {
         const int launches = launches_of(options, old);
-        if (launches > 1) return measure_in_launches(options, launches, listener, cancelled);
-        std::optional<bench::Report> calls;
-        if (!options.calls_of.empty()) calls = bench::read_report(options.calls_of);
-        settings.calls_of = calls ? &*calls : nullptr;
+        if (launches > 1)
+            return measure_in_launches(options, launches, old ? &*old : nullptr, listener,
+                                       cancelled);
+        std::vector<bench::Report> reports;
+        for (const std::string& file : options.calls_of)
+            reports.push_back(bench::read_report(file));
+        for (const bench::Report& report : reports) settings.calls_of.push_back(&report);
         return bench::measure(settings, listener, cancelled,
                               options.trace.empty() ? nullptr : &recording);
     };
@@ -132,6 +139,7 @@ std::shared_ptr<BenchOptions> add_bench_command(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     command->callback([options, command, &exit_code] {
         refuse_empty_values(*command);
+        refuse_unheard(*command, *options);
         exit_code = run_bench(*options);
     });
     return options;

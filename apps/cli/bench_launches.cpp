@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "apps/bench/comparison.h"
 #include "apps/bench/report_reader.h"
 #include "apps/check/child_process.h"
 #include "apps/check/temporary_folder.h"
@@ -97,7 +98,7 @@ void merge(const bench::Report& launch, int index, bench::Report& all) {
 }  // namespace
 
 bench::Report measure_in_launches(const BenchOptions& options, int launches,
-                                  const bench::Listener& listener,
+                                  const bench::Report* old, const bench::Listener& listener,
                                   const std::atomic<bool>& cancelled) {
     const check::TemporaryFolder folder;
     const fs::path first = folder.path() / "launch0.json";
@@ -106,12 +107,15 @@ bench::Report measure_in_launches(const BenchOptions& options, int launches,
         if (listener) listener(fmt::format("launch {} of {}", i + 1, launches));
         const fs::path report = folder.path() / fmt::format("launch{}.json", i);
         std::vector<std::string> argv = command(options, report);
-        const std::string& old = options.calls_of.empty() ? options.compare : options.calls_of;
-        add(argv, "--calls-of", i > 0 ? first.string() : old);
+        // The first launch has calls also for what older reports have not.
+        if (options.calls_of.empty()) add(argv, "--calls-of", options.compare);
+        for (const std::string& older : options.calls_of) add(argv, "--calls-of", older);
+        if (i > 0) add(argv, "--calls-of", first.string());
         if (i + 1 == launches) add(argv, "--trace", options.trace);
         add_scenes(options, argv);
         if (!run(argv, folder.path() / "log", cancelled)) break;
         merge(bench::read_report(report), i, all);
+        if (i == 0 && old) bench::require_common(*old, all);
     }
     return all;
 }

@@ -16,12 +16,17 @@ namespace {
 constexpr int kLargestSide = 16384;  // as for `penumbra render`
 constexpr int kMostThreads = 1024;
 
+// Groups of options that say what is measured, and how.
+constexpr const char* kWhatGroup = "What is measured";
+constexpr const char* kHowGroup = "How often, and on how many threads";
+constexpr const char* kRunningGroup = "Running";
+
 void declare_what(CLI::App& command, BenchOptions& o) {
     command
         .add_option("SCENES", o.scenes,
                     "Scene files (.json) or models (.obj); without any the built-in scene")
         ->type_name("FILE.json|obj");
-    command.option_defaults()->group("What is measured");
+    command.option_defaults()->group(kWhatGroup);
     command.add_option("--frame", o.frame, "Which frame of each scene [its first one]")
         ->check(in_range(1, 1e9));
     command.add_option("--size", o.size, "Size of the picture in pixels [the scene's]")
@@ -33,7 +38,7 @@ void declare_what(CLI::App& command, BenchOptions& o) {
 }
 
 void declare_how(CLI::App& command, BenchOptions& o) {
-    command.option_defaults()->group("How often, and on how many threads");
+    command.option_defaults()->group(kHowGroup);
     command
         .add_option("--threads", o.threads,
                     "Numbers of threads to sweep over, a list with commas [powers of two up to "
@@ -62,8 +67,10 @@ void declare_how(CLI::App& command, BenchOptions& o) {
     command
         .add_option("--calls-of", o.calls_of,
                     "Measure limits with the calls of this report, instead of looking for the "
-                    "quickest [with --compare those of the old report]")
-        ->type_name("FILE.json");
+                    "quickest, and learn from it what cores of our own give; of several the "
+                    "first one that has them, and the best [with --compare the old report]")
+        ->type_name("FILE.json")
+        ->allow_extra_args(false);
 }
 
 void declare_comparison(CLI::App& command, BenchOptions& o) {
@@ -103,7 +110,7 @@ void declare_output(CLI::App& command, BenchOptions& o) {
 }
 
 void declare_execution(CLI::App& command, BenchOptions& o) {
-    command.option_defaults()->group("Running");
+    command.option_defaults()->group(kRunningGroup);
     command.add_option("--isa", o.isa, "Instruction set of everything but the ray tracer")
         ->check(CLI::IsMember({"auto", "avx2", "avx512"}))
         ->capture_default_str();
@@ -142,6 +149,17 @@ std::optional<simd::Isa> kernel_isa(const std::string& word) {
 }
 
 }  // namespace
+
+void refuse_unheard(const CLI::App& command, const BenchOptions& options) {
+    if (options.from.empty()) return;
+    for (const CLI::Option* option : command.get_options()) {
+        const bool is_of_measuring = option->get_group() == kWhatGroup ||
+                                     option->get_group() == kHowGroup ||
+                                     option->get_group() == kRunningGroup;
+        if (is_of_measuring && option->count() > 0)
+            throw InputError(option->get_name() + ": --from measures nothing");
+    }
+}
 
 void declare_options(CLI::App& command, BenchOptions& options) {
     declare_what(command, options);

@@ -21,11 +21,15 @@ struct BenchOptions {
     int launches = 0;     // 0: as is fit
     double patience = 5;  // seconds
     std::string json, csv, trace, html;
-    std::string from, calls_of, compare;
+    std::string from, compare;
+    std::vector<std::string> calls_of;
     std::optional<double> fail_slower;
 };
 
 void declare_options(CLI::App& command, BenchOptions& options);
+
+// Throws InputError if options of measuring were given where nothing is measured.
+void refuse_unheard(const CLI::App& command, const BenchOptions& options);
 
 // What the words mean. Throws InputError that names the option.
 [[nodiscard]] bench::BenchSettings interpret(const BenchOptions& options);

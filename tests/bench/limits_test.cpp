@@ -91,6 +91,23 @@ TEST_CASE("every limit takes time, whatever the number of threads") {
     }
 }
 
+TEST_CASE("where it is cancelled no ray is traced any more, and no limit measured") {
+    const std::atomic<bool> cancelled = true;
+    const Workload part =
+        record_workload(scene(), kImage, {.threads = 2}, 1, kMemoryOfRays, &cancelled);
+    CHECK(part.shadow_rays == 0);
+    const Workload work = record_workload(scene(), kImage, {.threads = 2}, 1);
+    profile::Profile profile;
+    parallel::Arena arena(2);
+    arena.record(&profile);
+    const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
+    Limits limits(work, bare, {.isa = simd::best_isa(), .cancelled = &cancelled}, arena, profile);
+    const Limits::Measured m = limits.measure();
+    for (const LoopTime& time :
+         {m.primary_rays, m.shadow_rays, m.shade, m.rays, m.setup, m.deposit, m.noise, m.filter})
+        CHECK(time.thread_milliseconds == 0);
+}
+
 TEST_CASE("a sweep doubles the threads up to what there is, which it includes") {
     CHECK(thread_sweep(1) == std::vector<int>{1});
     CHECK(thread_sweep(2) == std::vector<int>{1, 2});

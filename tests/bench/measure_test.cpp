@@ -182,7 +182,7 @@ TEST_CASE("what cores of our own give is known from an older report of this proc
     BenchSettings settings = small_settings();
     settings.scenes = {""};
     settings.threads = {1};
-    settings.calls_of = &older;
+    settings.calls_of = {&older};
     const auto second_line = [&] {
         std::string last;
         const Report report = measure(

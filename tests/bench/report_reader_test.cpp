@@ -141,6 +141,11 @@ TEST_CASE("what is wrong in a report is told with its place") {
     CHECK(complaint(root).find("benchmarks[1].real_time") != std::string::npos);
 
     root = document();
+    root["benchmarks"][1]["limit_floor_ms"] = 1e-100;
+    CHECK(complaint(root).find("benchmarks[1].limit_floor_ms: expected 0 or at least 1e-09") !=
+          std::string::npos);
+
+    root = document();
     root["benchmarks"][0]["limit"] = "moonlight";
     CHECK(complaint(root).find("expected the name of a limit") != std::string::npos);
 

@@ -45,6 +45,7 @@ TEST_CASE("the best share is the upper decile: one that was measured wrong does 
     shares[9] = 1;
     CHECK(best_core_share(run({shares})) == 2.5);
     CHECK(best_core_share(run({{0, 0, 0}})) == 0);
+    CHECK(best_core_share(run({{3, 3, 3, 0}})) == 0);
     Report report;
     report.scenes.push_back({.name = "room", .runs = {run({shares})}});
     CHECK(best_core_share(report, "room", 1) == 2.5);
@@ -103,6 +104,18 @@ TEST_CASE("where too few launches had cores of their own, all are compared") {
     CHECK(runs.note.find("8 of 8 launches then and 4 of 8 now") != std::string::npos);
     CHECK(runs.note.find("--patience") != std::string::npos);
     CHECK(match(then, then, true).note.empty());
+}
+
+TEST_CASE("where a report does not tell the shares, all launches are compared") {
+    const ThreadRun known = run(launches_of(5, 3));
+    const ThreadRun unknown =
+        run({{0, 0, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}});
+    for (const MatchedRuns& runs : {match(known, unknown, true), match(unknown, known, true)}) {
+        CHECK(runs.note.starts_with("whether others used the cores was not measured"));
+        CHECK(runs.then.places.size() == runs.then.all);
+        CHECK(runs.now.places.size() == runs.now.all);
+    }
+    CHECK(disturbance(unknown).empty());
 }
 
 TEST_CASE("a report that was disturbed throughout is seen beside one that was not") {

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     settings.execution.on_pass = &slow_down;
     std::optional<bench::Report> calls;
     if (std::string(argv[8]) != "-") calls = bench::read_report(argv[8]);
-    settings.calls_of = calls ? &*calls : nullptr;
+    if (calls) settings.calls_of = {&*calls};
     const std::atomic<bool> cancelled = false;
     const bench::Report report = bench::measure(settings, {}, cancelled, nullptr);
     image::write_file_atomically(argv[9], cli::benchmark_json(report));

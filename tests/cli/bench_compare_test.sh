@@ -29,7 +29,11 @@ check "with what is needed" holds stderr "expected at least 5 launches of the pr
 check "before anything is measured" exits_with 2 small --compare two.json
 check "another size" exits_with 2 bench --size 96x64 --threads 1 --repetitions 1 --patience 0 --compare five.json --json kept.json
 check "is told" holds stderr "size 64 x 64 then, 96 x 64 now"
-check "what was measured is kept" test -s kept.json
+check "after the first launch: nothing is kept" test ! -e kept.json
+check "too few launches asked for are refused" exits_with 2 small --launches 4 --compare five.json
+check "before anything is measured" holds stderr "--launches: expected at least 5 with --compare, got 4"
+check "--from with what is measured" exits_with 2 bench --from five.json --threads 1
+check "is refused by name" holds stderr "--threads: --from measures nothing"
 check "--fail-slower alone" exits_with 2 small --fail-slower 3
 check "--from with a scene" exits_with 2 bench shot.json --from five.json
 check "a report that is none" exits_with 2 bench --from page.html
