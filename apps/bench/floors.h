@@ -1,8 +1,8 @@
 #pragma once
 
-#include <compare>
 #include <map>
 #include <string_view>
+#include <tuple>
 
 #include "core/profile/profile.h"
 
@@ -25,7 +25,10 @@ class Floors {
         profile::Kind kind;
         std::string_view name;
         std::int64_t first, second;  // which task or tile
-        auto operator<=>(const Key&) const = default;
+        friend bool operator<(const Key& a, const Key& b) {
+            return std::tie(a.kind, a.name, a.first, a.second) <
+                   std::tie(b.kind, b.name, b.first, b.second);
+        }
     };
     using Times = std::map<Key, profile::Nanoseconds>;
     [[nodiscard]] static Times times(const profile::Profile& profile);

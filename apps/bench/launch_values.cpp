@@ -73,8 +73,8 @@ LaunchValues against_primary_rays(const ThreadRun& then, const ThreadRun& now,
     const PassResult* const old_rays = find_limit(then, LimitKind::kPrimaryRays);
     const PassResult* const new_rays = find_limit(now, LimitKind::kPrimaryRays);
     if (!old_rays || !new_rays) return {};
-    const LaunchValues values{floor_ratios(before, *old_rays), floor_ratios(after, *new_rays),
-                              LimitKind::kPrimaryRays};
+    LaunchValues values{floor_ratios(before, *old_rays), floor_ratios(after, *new_rays),
+                        LimitKind::kPrimaryRays};
     const PassResult* const old_stream = find_limit(then, LimitKind::kStream);
     const PassResult* const new_stream = find_limit(now, LimitKind::kStream);
     if (!is_known(values) || !old_stream || !new_stream) return values;
