@@ -91,44 +91,77 @@ struct Placement {
     friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-// Which moving models are small enough, together, to be built anew for each frame: the smallest.
-std::vector<std::size_t> rebuilt_models(const SceneView& view, std::size_t most_triangles) {
-    std::vector<std::size_t> moving;
+// Indices of a view's moving instances.
+struct MovingModels {
+    std::vector<std::size_t> small;  // together small enough to be built anew for each frame
+    std::vector<std::size_t> large;
+};
+
+MovingModels moving_models(const SceneView& view, std::size_t most_triangles) {
+    MovingModels models;
+    std::vector<std::size_t>& small = models.small;
     for (std::size_t i = 0; i < view.instances.size(); ++i)
-        if (view.instances[i].is_animated) moving.push_back(i);
+        if (view.instances[i].is_animated) small.push_back(i);
     const auto size = [&](std::size_t i) { return view.instances[i].mesh->triangles.size(); };
-    std::stable_sort(moving.begin(), moving.end(),
+    std::stable_sort(small.begin(), small.end(),
                      [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
     std::size_t triangles = 0;
-    const auto first_large = std::find_if(moving.begin(), moving.end(), [&](std::size_t i) {
+    const auto first_large = std::find_if(small.begin(), small.end(), [&](std::size_t i) {
         triangles += size(i);
         return triangles > most_triangles;
     });
-    moving.erase(first_large, moving.end());
-    return moving;
+    models.large.assign(first_large, small.end());
+    std::sort(models.large.begin(), models.large.end());  // in the view's order
+    small.erase(first_large, small.end());
+    return models;
 }
-
-}  // namespace
 
 // Rays visit three trees, one after the other: of all that never moves; of small moving models,
 // built anew where they are; and one of instances of large ones, whose own trees in object space
 // are built once. None is ever refitted, since a refitted tree would depend on its history.
 // Instances cost more than twice the time of triangles in world space: rays leave their packets.
-struct EmbreeOccluders::Implementation {
-    Implementation(const parallel::Arena& arena_to_use, TraceIsa isa, std::size_t most)
-        : arena(arena_to_use), most_rebuilt(most), device(new_device(isa)) {}
+class EmbreeOccluders : public OccluderTrees {
+  public:
+    EmbreeOccluders(const parallel::Arena& arena, TraceIsa isa, std::size_t most_rebuilt)
+        : arena_(arena), most_rebuilt_(most_rebuilt), device_(new_device(isa)) {}
 
+    void rebuild(const SceneView& view) override {
+        instances_.reset();
+        copies_.clear();
+        models_.clear();
+        moving_ = Tree{};
+        placed_.clear();
+        fixed_ = Tree{};
+        for (const Instance& instance : view.instances)
+            if (!instance.is_animated) attach_in_world(fixed_, view, instance);
+        finish(fixed_);
+        MovingModels moving = moving_models(view, most_rebuilt_);
+        rebuilt_ = std::move(moving.small);
+        for (const std::size_t i : moving.large) add_instance(view, i);
+    }
+
+    void place_moving(const SceneView& view) override {
+        place_rebuilt(view);
+        place_instances(view);
+    }
+
+    void occlude(const RayStream& rays) const override {
+        for (RTCScene scene : {fixed_.scene.get(), moving_.scene.get(), instances_.get()})
+            if (scene) occlude_by(scene, rays);
+    }
+
+  private:
     void attach_triangles(Tree& tree, const VertexSource& vertices,
                           std::span<const Triangle> triangles, const CutoutGeometry* cutout) const {
         if (triangles.empty()) return;
-        if (!tree.scene) tree.scene = new_scene(device.get());
-        const Geometry geometry = new_triangles(device.get(), vertices, triangles);
+        if (!tree.scene) tree.scene = new_scene(device_.get());
+        const Geometry geometry = new_triangles(device_.get(), vertices, triangles);
         if (cutout) {
             rtcSetGeometryUserData(geometry.get(), const_cast<CutoutGeometry*>(cutout));
             rtcSetGeometryOccludedFilterFunction(geometry.get(), &drop_holes);
         }
         attach(tree.scene.get(), geometry);
-        check(device.get(), "filling the shadow rays' tree");
+        check(device_.get(), "filling the shadow rays' tree");
     }
 
     // Opaque triangles and those with holes are geometries of their own: only the latter ask back.
@@ -146,56 +179,56 @@ struct EmbreeOccluders::Implementation {
     }
 
     void finish(const Tree& tree) const {
-        if (tree.scene) commit(device.get(), tree.scene.get(), arena);
+        if (tree.scene) commit(device_.get(), tree.scene.get(), arena_);
     }
 
     // A model's tree; models that share mesh and materials share it.
     RTCScene object_tree(const SceneView& view, const Instance& instance) {
-        for (const Model& other : models)
+        for (const Model& other : models_)
             if (other.mesh == instance.mesh && other.materials == instance.materials.data())
                 return other.tree.scene.get();
         Model model{instance.mesh, instance.materials.data(), {}};
         attach_model(model.tree, view, instance,
                      {instance.mesh->positions.data(), instance.mesh->positions.size(), false});
         finish(model.tree);
-        models.push_back(std::move(model));
-        return models.back().tree.scene.get();
+        models_.push_back(std::move(model));
+        return models_.back().tree.scene.get();
     }
 
     void add_instance(const SceneView& view, std::size_t index) {
         RTCScene of = object_tree(view, view.instances[index]);
         if (!of) return;
-        if (!instances) instances = new_scene(device.get());
-        Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        if (!instances_) instances_ = new_scene(device_.get());
+        Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
         rtcSetGeometryInstancedScene(geometry.get(), of);
         set_transform(geometry.get(), Affine3f{});
-        rtcAttachGeometry(instances.get(), geometry.get());
-        copies.push_back({index, std::move(geometry), {}, false});
+        rtcAttachGeometry(instances_.get(), geometry.get());
+        copies_.push_back({index, std::move(geometry), {}, false});
     }
 
     void place_rebuilt(const SceneView& view) {
         std::vector<Placement> now;
-        for (const std::size_t i : rebuilt)
+        for (const std::size_t i : rebuilt_)
             now.push_back(
                 {view.instances[i].positions.data(), view.instances[i].world_from_object});
-        if (now == placed) return;
-        placed.clear();  // after a failure, the next call begins anew
-        moving = Tree{};
-        for (const std::size_t i : rebuilt) attach_in_world(moving, view, view.instances[i]);
-        finish(moving);
-        placed = std::move(now);
+        if (now == placed_) return;
+        placed_.clear();  // after a failure, the next call begins anew
+        moving_ = Tree{};
+        for (const std::size_t i : rebuilt_) attach_in_world(moving_, view, view.instances[i]);
+        finish(moving_);
+        placed_ = std::move(now);
     }
 
     void place_instances(const SceneView& view) {
         bool changed = false;
-        for (Copy& copy : copies) {
+        for (Copy& copy : copies_) {
             const Affine3f& now = view.instances[copy.index].world_from_object;
             if (copy.is_placed && copy.world_from_object == now) continue;
             set_transform(copy.geometry.get(), now);
             copy.world_from_object = now;
             copy.is_placed = changed = true;
         }
-        if (changed) commit(device.get(), instances.get(), arena);
+        if (changed) commit(device_.get(), instances_.get(), arena_);
     }
 
     struct Model {
@@ -210,50 +243,23 @@ struct EmbreeOccluders::Implementation {
         bool is_placed;
     };
 
-    const parallel::Arena& arena;
-    std::size_t most_rebuilt;
-    Device device;
-    Tree fixed;
-    std::vector<std::size_t> rebuilt;  // of the view's instances
-    std::vector<Placement> placed;     // of those, as they are in `moving`
-    Tree moving;
-    std::vector<Model> models;
-    std::vector<Copy> copies;
-    Scene instances;  // null: no model is large
+    const parallel::Arena& arena_;
+    std::size_t most_rebuilt_;
+    Device device_;
+    Tree fixed_;
+    std::vector<std::size_t> rebuilt_;  // of the view's instances
+    std::vector<Placement> placed_;     // of those, as they are in `moving_`
+    Tree moving_;
+    std::vector<Model> models_;
+    std::vector<Copy> copies_;
+    Scene instances_;  // null: no model is large
 };
 
-EmbreeOccluders::EmbreeOccluders(const parallel::Arena& arena, TraceIsa isa,
-                                 std::size_t most_rebuilt)
-    : implementation_(std::make_unique<Implementation>(arena, isa, most_rebuilt)) {}
-EmbreeOccluders::~EmbreeOccluders() = default;
+}  // namespace
 
-void EmbreeOccluders::rebuild(const SceneView& view) {
-    Implementation& self = *implementation_;
-    self.instances.reset();
-    self.copies.clear();
-    self.models.clear();
-    self.moving = Tree{};
-    self.placed.clear();
-    self.fixed = Tree{};
-    for (const Instance& instance : view.instances)
-        if (!instance.is_animated) self.attach_in_world(self.fixed, view, instance);
-    self.finish(self.fixed);
-    self.rebuilt = rebuilt_models(view, self.most_rebuilt);
-    for (std::size_t i = 0; i < view.instances.size(); ++i)
-        if (view.instances[i].is_animated &&
-            std::find(self.rebuilt.begin(), self.rebuilt.end(), i) == self.rebuilt.end())
-            self.add_instance(view, i);
-}
-
-void EmbreeOccluders::place_moving(const SceneView& view) {
-    implementation_->place_rebuilt(view);
-    implementation_->place_instances(view);
-}
-
-void EmbreeOccluders::occlude(const RayStream& rays) const {
-    const Implementation& self = *implementation_;
-    for (RTCScene scene : {self.fixed.scene.get(), self.moving.scene.get(), self.instances.get()})
-        if (scene) occlude_by(scene, rays);
+std::unique_ptr<OccluderTrees> make_embree_occluders(const parallel::Arena& arena, TraceIsa isa,
+                                                     std::size_t most_rebuilt) {
+    return std::make_unique<EmbreeOccluders>(arena, isa, most_rebuilt);
 }
 
 }  // namespace penumbra::shadow

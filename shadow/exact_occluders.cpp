@@ -44,61 +44,59 @@ void append(const SceneView& view, const Instance& instance, Group& group,
     group.splits.push_back(std::move(split));
 }
 
-}  // namespace
+class ExactOccluders : public OccluderTrees {
+  public:
+    ExactOccluders(const parallel::Arena& arena, simd::Isa isa) : builder_(arena), isa_(isa) {}
 
-struct ExactOccluders::Implementation {
+    void rebuild(const SceneView& view) override {
+        fixed_ = Group{};
+        moving_.clear();
+        std::vector<TreeTriangle> triangles;
+        for (const Instance& instance : view.instances)
+            if (!instance.is_animated) append(view, instance, fixed_, triangles);
+        fixed_.tree = builder_.build(triangles);
+        moving_.resize(view.instances.size());
+    }
+
+    void place_moving(const SceneView& view) override {
+        for (std::size_t i = 0; i < view.instances.size(); ++i) {
+            const Instance& instance = view.instances[i];
+            Moving& moving = moving_[i];
+            if (!instance.is_animated) continue;
+            if (moving.is_built && moving.world_from_object == instance.world_from_object) continue;
+            moving.group = Group{};
+            std::vector<TreeTriangle> triangles;
+            append(view, instance, moving.group, triangles);
+            moving.group.tree = builder_.build(triangles);
+            moving.world_from_object = instance.world_from_object;
+            moving.is_built = true;
+        }
+    }
+
+    void occlude(const RayStream& rays) const override {
+        auto* const occlude_by = simd::pick(isa_, &avx2::occlude, &avx512::occlude);
+        if (!fixed_.tree.root().is_null()) occlude_by(fixed_.tree.root(), rays);
+        for (const Moving& moving : moving_)
+            if (!moving.group.tree.root().is_null()) occlude_by(moving.group.tree.root(), rays);
+    }
+
+  private:
     struct Moving {
         Group group;
         Affine3f world_from_object;
         bool is_built = false;
     };
 
-    Implementation(const parallel::Arena& arena, simd::Isa kernels)
-        : builder(arena), isa(kernels) {}
-
-    TreeBuilder builder;
-    simd::Isa isa;
-    Group fixed;
-    std::vector<Moving> moving;  // one per instance; fixed ones have no tree
+    TreeBuilder builder_;
+    simd::Isa isa_;
+    Group fixed_;
+    std::vector<Moving> moving_;  // one per instance; fixed ones have no tree
 };
 
-ExactOccluders::ExactOccluders(const parallel::Arena& arena, simd::Isa isa)
-    : implementation_(std::make_unique<Implementation>(arena, isa)) {}
-ExactOccluders::~ExactOccluders() = default;
+}  // namespace
 
-void ExactOccluders::rebuild(const SceneView& view) {
-    Implementation& self = *implementation_;
-    self.fixed = Group{};
-    self.moving.clear();
-    std::vector<TreeTriangle> triangles;
-    for (const Instance& instance : view.instances)
-        if (!instance.is_animated) append(view, instance, self.fixed, triangles);
-    self.fixed.tree = self.builder.build(triangles);
-    self.moving.resize(view.instances.size());
-}
-
-void ExactOccluders::place_moving(const SceneView& view) {
-    Implementation& self = *implementation_;
-    for (std::size_t i = 0; i < view.instances.size(); ++i) {
-        const Instance& instance = view.instances[i];
-        Implementation::Moving& moving = self.moving[i];
-        if (!instance.is_animated) continue;
-        if (moving.is_built && moving.world_from_object == instance.world_from_object) continue;
-        moving.group = Group{};
-        std::vector<TreeTriangle> triangles;
-        append(view, instance, moving.group, triangles);
-        moving.group.tree = self.builder.build(triangles);
-        moving.world_from_object = instance.world_from_object;
-        moving.is_built = true;
-    }
-}
-
-void ExactOccluders::occlude(const RayStream& rays) const {
-    const Implementation& self = *implementation_;
-    auto* const occlude_by = simd::pick(self.isa, &avx2::occlude, &avx512::occlude);
-    if (!self.fixed.tree.root().is_null()) occlude_by(self.fixed.tree.root(), rays);
-    for (const Implementation::Moving& moving : self.moving)
-        if (!moving.group.tree.root().is_null()) occlude_by(moving.group.tree.root(), rays);
+std::unique_ptr<OccluderTrees> make_exact_occluders(const parallel::Arena& arena, simd::Isa isa) {
+    return std::make_unique<ExactOccluders>(arena, isa);
 }
 
 }  // namespace penumbra::shadow

@@ -2,34 +2,16 @@
 
 #include <memory>
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
 #include "core/simd/isa.h"
-#include "shadow/ray_stream.h"
-
-// Occluders whose answers are those of real numbers (segment_triangle.h), the same on all
-// processors: triangles in world space, tested by our own arithmetic.
+#include "shadow/occluder_trees.h"
 
 namespace penumbra::shadow {
 
-class ExactOccluders {
-  public:
-    // As Occluders. `isa` changes no answer.
-    ExactOccluders(const parallel::Arena& arena, simd::Isa isa);
-    ~ExactOccluders();
-    ExactOccluders(const ExactOccluders&) = delete;
-    ExactOccluders& operator=(const ExactOccluders&) = delete;
-
-    // Forgets all trees and builds those of the view's fixed models.
-    void rebuild(const SceneView& view);
-    // Builds the trees of moving models where their transforms have changed.
-    void place_moving(const SceneView& view);
-    // 0 <= near <= far <= 2^20.
-    void occlude(const RayStream& rays) const;
-
-  private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
-};
+// Occluders whose answers are those of real numbers (segment_triangle.h), the same on all
+// processors: triangles in world space, tested by our own arithmetic. `isa` changes no answer;
+// `arena` must outlive them.
+[[nodiscard]] std::unique_ptr<OccluderTrees> make_exact_occluders(const parallel::Arena& arena,
+                                                                  simd::Isa isa);
 
 }  // namespace penumbra::shadow

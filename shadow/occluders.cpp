@@ -32,31 +32,28 @@ std::vector<Source> sources_of(const SceneView& view) {
     return sources;
 }
 
+std::unique_ptr<OccluderTrees> make_trees(const parallel::Arena& arena,
+                                          const OccluderSettings& settings) {
+    if (settings.test == HitTest::kExact)
+        return make_exact_occluders(arena, settings.kernels.value_or(simd::best_isa()));
+    return make_embree_occluders(arena, settings.isa, settings.most_rebuilt);
+}
+
 }  // namespace
 
 struct Occluders::Implementation {
     Implementation(const parallel::Arena& arena_to_use, const OccluderSettings& settings)
-        : arena(arena_to_use) {
-        if (settings.test == HitTest::kExact)
-            exact = std::make_unique<ExactOccluders>(
-                arena, settings.kernels ? *settings.kernels : simd::best_isa());
-        else
-            embree = std::make_unique<EmbreeOccluders>(arena, settings.isa, settings.most_rebuilt);
-    }
+        : arena(arena_to_use), trees(make_trees(arena, settings)) {}
 
     void rebuild(const SceneView& view) {
-        if (exact)
-            exact->rebuild(view);
-        else
-            embree->rebuild(view);
+        trees->rebuild(view);
         extents.resize(view.instances.size());
         for (std::size_t i = 0; i < view.instances.size(); ++i)
             extents[i] = triangle_extents(arena, view.instances[i]);
     }
 
     const parallel::Arena& arena;
-    std::unique_ptr<ExactOccluders> exact;    // one of
-    std::unique_ptr<EmbreeOccluders> embree;  // them
+    std::unique_ptr<OccluderTrees> trees;
     std::vector<Source> sources;
     bool is_built = false;  // from `sources`
     std::vector<TriangleExtents> extents;
@@ -77,10 +74,7 @@ void Occluders::update(const SceneView& view) {
         self.sources = std::move(sources);
         self.is_built = true;
     }
-    if (self.exact)
-        self.exact->place_moving(view);
-    else
-        self.embree->place_moving(view);
+    self.trees->place_moving(view);
     self.scales.resize(view.instances.size());
     for (std::size_t i = 0; i < view.instances.size(); ++i)
         self.scales[i] = offset_scale(self.extents[i], view.instances[i]);
@@ -91,11 +85,7 @@ std::span<const float> Occluders::offset_scales() const {
 }
 
 void Occluders::occlude(const RayStream& rays) const {
-    const Implementation& self = *implementation_;
-    if (self.exact)
-        self.exact->occlude(rays);
-    else
-        self.embree->occlude(rays);
+    implementation_->trees->occlude(rays);
 }
 
 }  // namespace penumbra::shadow
