@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "apps/bench/launch_values.h"
 #include "apps/bench/matched_runs.h"
 #include "apps/bench/rank_test.h"
 #include "apps/bench/relabelling.h"
+#include "apps/bench/undisturbed.h"
 #include "core/error.h"
 
 namespace penumbra::bench {
@@ -20,12 +20,6 @@ struct Candidate {
     PassComparison shown;
     Quantity values;
 };
-
-int count_launches(const PassResult& pass) {
-    std::map<int, int> samples;
-    for (const Sample& sample : pass.samples) ++samples[sample.launch];
-    return static_cast<int>(samples.size());
-}
 
 const SceneResult* find_scene(const Report& report, const std::string& name) {
     const auto found = std::find_if(report.scenes.begin(), report.scenes.end(),
@@ -217,7 +211,7 @@ int require_launches(const Report& report, const std::string& which) {
     for (const SceneResult& scene : report.scenes)
         for (const ThreadRun& run : scene.runs)
             for (const PassResult& pass : run.passes) {
-                const int count = count_launches(pass);
+                const int count = static_cast<int>(bench::launches(pass).size());
                 if (launches != 0 && count != launches)
                     throw InputError(fmt::format("{}: {} has {} launches, others have {}", which,
                                                  benchmark_name(scene, run, pass), count,

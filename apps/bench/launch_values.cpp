@@ -10,11 +10,6 @@
 namespace penumbra::bench {
 namespace {
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return quantile(values, 0.5);
-}
-
 // One value per launch, in ascending order of launches.
 template <class Ratio>
 LaunchRatios logarithms_of_medians(const PassResult& pass, const Ratio& ratio) {
@@ -23,7 +18,7 @@ LaunchRatios logarithms_of_medians(const PassResult& pass, const Ratio& ratio) {
         launches[pass.samples[i].launch].push_back(ratio(i));
     LaunchRatios result;
     for (auto& [launch, ratios] : launches) {
-        const double value = median(std::move(ratios));
+        const double value = summarize(std::move(ratios)).median;
         if (value <= 0) return {};
         result.push_back(std::log(value));
     }
@@ -46,7 +41,7 @@ double spread(const LaunchValues& values) {
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = i + 1; k < all.size(); ++k)
             differences.push_back(std::abs(all[k] - all[i]));
-    return differences.empty() ? 0 : median(std::move(differences));
+    return differences.empty() ? 0 : summarize(std::move(differences)).median;
 }
 
 // Of the passes with this limit the one whose limit takes longest, which is measured best; or null.

@@ -73,10 +73,14 @@ ThreadRun undisturbed(const ThreadRun& run, double best) {
     return only(run, kept);
 }
 
-std::vector<int> launches(const ThreadRun& run) {
+std::vector<int> launches(const PassResult& pass) {
     std::set<int> numbers;
-    for (const Sample& sample : repetitions(run)) numbers.insert(sample.launch);
+    for (const Sample& sample : pass.samples) numbers.insert(sample.launch);
     return {numbers.begin(), numbers.end()};
+}
+
+std::vector<int> launches(const ThreadRun& run) {
+    return launches(run.passes.front());
 }
 
 ThreadRun least_disturbed(const ThreadRun& run, std::size_t count) {

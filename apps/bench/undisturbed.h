@@ -31,7 +31,8 @@ inline constexpr int kFewestUndisturbed = 3;
 // The run with its undisturbed repetitions alone, of launches that have enough of them.
 [[nodiscard]] ThreadRun undisturbed(const ThreadRun& run, double best);
 
-// The numbers of the launches that a run has, ascending.
+// The numbers of the launches that a pass, or a run, was measured in, ascending.
+[[nodiscard]] std::vector<int> launches(const PassResult& pass);
 [[nodiscard]] std::vector<int> launches(const ThreadRun& run);
 
 // The run with the `count` repetitions alone that had the greatest shares, in their order.

@@ -57,6 +57,22 @@ struct TileRays {
     std::uint64_t rays = 0;
 };
 
+// The kept shadow rays, and primary ones for the same tiles.
+void take_rays(std::vector<TileRays>& tiles, const parallel::TileGrid& grid, const PixelRect& seen,
+               Workload& work) {
+    std::uint64_t kept = 0;
+    for (int i = 0; i < grid.count(); ++i) {
+        TileRays& tile = tiles[static_cast<std::size_t>(i)];
+        work.shadow_rays += tile.rays;
+        kept += static_cast<std::uint64_t>(tile.batch.count);
+        tile.batch.pad();
+        work.shadow.push_back(std::move(tile.batch));
+        work.primary.push_back(primary_rays(work.view.camera, seen, grid.tile(i)));
+    }
+    if (kept > 0)
+        work.shadow_scale = static_cast<double>(work.shadow_rays) / static_cast<double>(kept);
+}
+
 void count_scene(Workload& work) {
     for (const Instance& instance : work.view.instances) {
         work.vertices += instance.mesh->positions.size();
@@ -96,20 +112,8 @@ Workload record_workload(const Scene& scene, const renderer::ImageSettings& imag
     renderer::Film film;
     renderer.render(frame, {renderer::Aov::kBeauty}, film, cancelled);
 
-    std::uint64_t kept = 0;
-    const parallel::TileGrid grid(film.window);
-    const PixelRect seen = {0, 0, all.width, all.height};
-    for (int i = 0; i < grid.count(); ++i) {
-        TileRays& tile = tiles[static_cast<std::size_t>(i)];
-        work.shadow_rays += tile.rays;
-        kept += static_cast<std::uint64_t>(tile.batch.count);
-        tile.batch.pad();
-        work.shadow.push_back(std::move(tile.batch));
-        work.primary.push_back(primary_rays(work.view.camera, seen, grid.tile(i)));
-    }
+    take_rays(tiles, parallel::TileGrid(film.window), {0, 0, all.width, all.height}, work);
     work.covered_pixels = count_covered(film);
-    if (kept > 0)
-        work.shadow_scale = static_cast<double>(work.shadow_rays) / static_cast<double>(kept);
     work.shaded_pairs = work.shadow_rays / samples;
     int fewest = kMaxLightVertices;
     for (const PolygonLight& light : work.view.lights)
