@@ -30,30 +30,27 @@ Quantity MatchedRuns::among_all(const LaunchValues& values) const {
 }
 
 MatchedRuns match(const ThreadRun& then, const ThreadRun& now, bool is_same_processor) {
+    MatchedRuns all{.then = side(then, then), .now = side(now, now)};
     double old_best = best_core_share(then);
     double new_best = best_core_share(now);
-    if (old_best <= 0 || new_best <= 0)
-        return {
-            .then = side(then, then),
-            .now = side(now, now),
-            .note = "whether others used the cores was not measured; all launches are compared"};
-    if (is_same_processor) old_best = new_best = std::max(old_best, new_best);
-    MatchedRuns matched{.then = side(undisturbed(then, old_best), then),
-                        .now = side(undisturbed(now, new_best), now)};
-    const std::size_t old_count = matched.then.places.size();
-    const std::size_t new_count = matched.now.places.size();
-    const bool is_enough = std::min(old_count, new_count) >= kFewestLaunches;
-    if (old_count < matched.then.all || new_count < matched.now.all)
-        matched.note = fmt::format(
-            "{} of {} launches then and {} of {} now had cores of their own{}", old_count,
-            matched.then.all, new_count, matched.now.all,
-            is_enough ? "; these are compared"
-                      : ", too few to compare these alone; measure with more --patience");
-    if (!is_enough) {
-        matched.then = side(then, then);
-        matched.now = side(now, now);
+    if (old_best <= 0 || new_best <= 0) {
+        all.note = "whether others used the cores was not measured; all launches are compared";
+        return all;
     }
-    return matched;
+    if (is_same_processor) old_best = new_best = std::max(old_best, new_best);
+    MatchedRuns quiet{.then = side(undisturbed(then, old_best), then),
+                      .now = side(undisturbed(now, new_best), now)};
+    const std::size_t old_count = quiet.then.places.size();
+    const std::size_t new_count = quiet.now.places.size();
+    if (old_count == all.then.all && new_count == all.now.all) return quiet;
+    const bool is_enough = std::min(old_count, new_count) >= kFewestLaunches;
+    MatchedRuns& chosen = is_enough ? quiet : all;
+    chosen.note =
+        fmt::format("{} of {} launches then and {} of {} now had cores of their own{}", old_count,
+                    all.then.all, new_count, all.now.all,
+                    is_enough ? "; these are compared"
+                              : ", too few to compare these alone; measure with more --patience");
+    return chosen;
 }
 
 }  // namespace penumbra::bench

@@ -136,16 +136,13 @@ std::vector<std::string> all_passes() {
     return names;
 }
 
-// What the pass's least times make together.
-LoopTime floor_of(Pass pass, const Floors& floors, int threads) {
+// What the pass's least times make together, in milliseconds of the wall clock.
+double floor_of(Pass pass, const Floors& floors, int threads) {
     const std::string_view name = renderer::name(pass);
-    if (renderer::is_tile_pass(pass)) {
-        const double milliseconds = floors.milliseconds(profile::Kind::kPass, name);
-        return {milliseconds / threads, milliseconds};
-    }
-    const double alone = floors.milliseconds(profile::Kind::kPhase, name);
-    const double tasks = floors.milliseconds(profile::Kind::kTask, name);
-    return {alone + tasks / threads, alone + tasks};
+    if (renderer::is_tile_pass(pass))
+        return floors.milliseconds(profile::Kind::kPass, name) / threads;
+    return floors.milliseconds(profile::Kind::kPhase, name) +
+           floors.milliseconds(profile::Kind::kTask, name) / threads;
 }
 
 }  // namespace
@@ -155,7 +152,7 @@ void set_floors(const Floors& floors, const Limits::Measured& limits, ThreadRun&
     for (int i = 0; i < renderer::kPassCount; ++i) {
         const auto pass = static_cast<Pass>(i);
         if (pass == Pass::kEvaluate) continue;  // builds what later repetitions find built
-        of_pass[text(pass)] = floor_of(pass, floors, run.threads).wall_milliseconds;
+        of_pass[text(pass)] = floor_of(pass, floors, run.threads);
         of_pass["frame"] += of_pass[text(pass)];
     }
     for (PassResult& pass : run.passes) {

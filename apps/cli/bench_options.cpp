@@ -134,14 +134,6 @@ void read_size(const std::string& text, renderer::ImageSettings& image) {
     image.height = height;
 }
 
-// What was asked for and would not be heard.
-void require_a_purpose(const BenchOptions& o) {
-    if (o.fail_slower && o.compare.empty()) throw InputError("--fail-slower: needs --compare");
-    if (o.from.empty()) return;
-    if (!o.scenes.empty()) throw InputError("--from: measures nothing, so it takes no scenes");
-    if (!o.trace.empty()) throw InputError("--trace: there is none of a report that was written");
-}
-
 std::optional<simd::Isa> kernel_isa(const std::string& word) {
     if (word == "avx2") return simd::Isa::kAvx2;
     if (word == "avx512") return simd::Isa::kAvx512;
@@ -151,7 +143,13 @@ std::optional<simd::Isa> kernel_isa(const std::string& word) {
 }  // namespace
 
 void refuse_unheard(const CLI::App& command, const BenchOptions& options) {
+    if (options.fail_slower && options.compare.empty())
+        throw InputError("--fail-slower: needs --compare");
     if (options.from.empty()) return;
+    if (!options.scenes.empty())
+        throw InputError("--from: measures nothing, so it takes no scenes");
+    if (!options.trace.empty())
+        throw InputError("--trace: there is none of a report that was written");
     for (const CLI::Option* option : command.get_options()) {
         const bool is_of_measuring = option->get_group() == kWhatGroup ||
                                      option->get_group() == kHowGroup ||
@@ -170,7 +168,6 @@ void declare_options(CLI::App& command, BenchOptions& options) {
 }
 
 bench::BenchSettings interpret(const BenchOptions& o) {
-    require_a_purpose(o);
     bench::BenchSettings settings{.scenes = o.scenes,
                                   .frame = o.frame,
                                   .threads = o.threads,

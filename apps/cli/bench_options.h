@@ -28,7 +28,8 @@ struct BenchOptions {
 
 void declare_options(CLI::App& command, BenchOptions& options);
 
-// Throws InputError if options of measuring were given where nothing is measured.
+// Throws InputError if an option was given that would not be heard: of measuring where nothing is
+// measured, or of comparing where nothing is compared.
 void refuse_unheard(const CLI::App& command, const BenchOptions& options);
 
 // What the words mean. Throws InputError that names the option.
