@@ -3,40 +3,28 @@
 #include <fmt/format.h>
 
 #include "apps/renderer/builtin_scene.h"
+#include "apps/renderer/settings_table.h"
 #include "apps/renderer/version.h"
-#include "core/image/exr.h"
 #include "core/scene/digest.h"
 
 namespace penumbra::renderer {
 namespace {
 
-std::string_view name(Method method) {
-    switch (method) {
-        case Method::kRatio:
-            return "ratio";
-        case Method::kStochastic:
-            return "stochastic";
-        case Method::kUnshadowed:
-            return "unshadowed";
-    }
-    return "";
-}
+struct AllSettings {
+    ImageSettings image;
+    ExecutionSettings execution;
+    OutputSettings output;
+};
 
-std::string_view name(Denoise denoise) {
-    return denoise == Denoise::kNoiseDriven ? "noise-driven" : "none";
-}
-
-std::string_view name_of_tracer(const ImageSettings& image, shadow::TraceIsa isa) {
-    return image.reproducible ? "exact" : shadow::name(isa);  // exact: nothing depends on Embree
-}
-
-std::string describe_filter(const ImageSettings& image) {
-    const denoise::NoiseSettings& n = image.noise;
-    const denoise::FilterSettings& f = image.filter;
-    return fmt::format(
-        "noise {} radius {} full {}, filter radius {} gain {} smallest {} normal {} plane {}, ",
-        n.rule == denoise::LineRule::kMaximum ? "maximum" : "mean", n.radius, n.full_noise,
-        f.radius, f.radius_per_noise, f.smallest_radius, f.normal_weight, f.plane_weight);
+// What changes nothing beside the others gets one value, so that --resume does not ask for it. Not
+// what only some AOV shows: without a filter, E still depends on the noise estimate's settings.
+AllSettings without_idle_ones(AllSettings all) {
+    if (all.image.reproducible) all.execution.trace_isa = ExecutionSettings{}.trace_isa;
+    if (all.output.preview)
+        all.output.preview = ".png";  // no paths
+    else
+        all.output.exposure = OutputSettings{}.exposure;
+    return all;
 }
 
 std::string hash(const std::string& text) {
@@ -47,18 +35,13 @@ std::string hash(const std::string& text) {
 
 std::string describe_settings(const ImageSettings& image, const ExecutionSettings& execution,
                               const OutputSettings& output) {
-    const PixelRect crop = image.crop.value_or(PixelRect{});
-    std::string text = fmt::format(
-        "method {}, size {}x{}, crop {},{},{},{}, spp {}, aa {}, denoise {}, seed {}, "
-        "light-tolerance {}, trace-isa {}, precision {}, compression {}, aov",
-        name(image.method), image.width, image.height, crop.x0, crop.y0, crop.x1, crop.y1,
-        image.samples_per_pixel, image.passes, name(image.denoise), image.seed,
-        image.light_tolerance, name_of_tracer(image, execution.trace_isa),
-        output.float_precision ? "float" : "half", image::name(output.compression));
-    if (image.denoise == Denoise::kNoiseDriven) text = describe_filter(image) + text;
-    if (output.preview) text = fmt::format("preview at {} EV, ", output.exposure) + text;
-    for (const AovInfo& aov : aov_table())
-        if (output.aovs.contains(aov.aov)) text += fmt::format(" {}", aov.name);
+    const AllSettings all = without_idle_ones({image, execution, output});
+    std::string text;
+    each_setting(all.image, all.execution, all.output, [&](const auto& setting, const auto& value) {
+        const std::string said = text_of(setting, value);
+        if (said.empty()) return;
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", setting.name, said);
+    });
     return text;
 }
 

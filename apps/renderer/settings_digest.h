@@ -8,8 +8,9 @@
 
 namespace penumbra::renderer {
 
-// All settings that a frame's file depends on, in words: "ratio 1920x1080 spp 1 ...". No threads,
-// no paths. `image` is complete (completed(), renderer.h).
+// All settings that a frame's file depends on (settings_table.h), as on the command line: "size
+// 1920x1080, ..., method ratio, spp 1, ...". No threads, no paths. `image` is complete
+// (completed(), renderer.h).
 [[nodiscard]] std::string describe_settings(const ImageSettings& image,
                                             const ExecutionSettings& execution,
                                             const OutputSettings& output);

@@ -136,6 +136,20 @@ check "--resume keeps frames with and without --reproducible apart, Embree's ins
      '$penumbra' render shot.json -f 2 -o exact/x.exr --reproducible --resume | grep -c skipped | grep -qx 0 &&
      '$penumbra' render shot.json -f 2 -o exact/x.exr --reproducible --trace-isa auto --resume | grep -c skipped | grep -qx 1"
 
+resumed_with_another_noise_radius() {
+    local base=(render shot.json -f 1 -o noise/x.exr --denoise none --aov beauty,E)
+    "$penumbra" "${base[@]}" --noise-radius 10 >/dev/null || return 1
+    cp noise/x.exr noise/before.exr
+    "$penumbra" "${base[@]}" --noise-radius 3 --resume | grep -c skipped | grep -qx 0 || return 1
+    ! cmp -s noise/before.exr noise/x.exr &&
+        "$penumbra" "${base[@]}" --noise-radius 3 --resume | grep -c skipped | grep -qx 1
+}
+check "without a filter the noise estimate's settings still count, as they show in E" resumed_with_another_noise_radius
+
+# ---- settings in files
+check "the header names the settings" bash -c "'$penumbra' render shot.json -f 1 -o set.exr --spp 2 --reproducible >/dev/null &&
+    '$penumbra' info set.exr | grep -q '^penumbraSettings size 160x96, .* spp 2, .* reproducible true'"
+
 # ---- help
 check "--help explains every option" bash -c \
     "for o in --output --frames --size --crop --method --spp --aa --denoise --aov --compression --precision --resume \
