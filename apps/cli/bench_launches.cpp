@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add(std::vector<std::string>& argv, const char* option, const std::string& value) {
+void add(std::vector<std::string>& argv, const std::string& option, const std::string& value) {
     if (!value.empty()) argv.push_back(fmt::format("{}={}", option, value));
 }
 
@@ -31,14 +31,13 @@ std::vector<std::string> command(const BenchOptions& o, const fs::path& report) 
     add(argv, "--launches", "1");
     add(argv, "--json", report.string());
     if (o.frame > 0) add(argv, "--frame", std::to_string(o.frame));
-    add(argv, "--size", o.size);
-    if (o.samples_per_pixel > 0) add(argv, "--spp", std::to_string(o.samples_per_pixel));
+    if (const int samples = o.image.samples_per_pixel; samples > 0)
+        add(argv, "--spp", std::to_string(samples));
     if (!o.threads.empty()) add(argv, "--threads", fmt::format("{}", fmt::join(o.threads, ",")));
     add(argv, "--warmup", std::to_string(o.warmups));
     add(argv, "--repetitions", std::to_string(o.repetitions));
     add(argv, "--patience", fmt::format("{}", o.patience));
-    add(argv, "--isa", o.isa);
-    add(argv, "--trace-isa", o.trace_isa);
+    for (const auto& [setting, text] : o.texts) add(argv, "--" + setting, text);
     return argv;
 }
 

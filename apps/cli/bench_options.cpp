@@ -3,23 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "apps/bench/machine.h"
 #include "apps/cli/option_checks.h"
+#include "apps/renderer/settings_table.h"
 #include "core/error.h"
 #include "core/parallel/arena.h"
 
 namespace penumbra::cli {
 namespace {
 
-constexpr int kLargestSide = 16384;  // as for `penumbra render`
 constexpr int kMostThreads = 1024;
 
 // Groups of options that say what is measured, and how.
 constexpr const char* kWhatGroup = "What is measured";
 constexpr const char* kHowGroup = "How often, and on how many threads";
 constexpr const char* kRunningGroup = "Running";
+
+renderer::Choice<std::optional<simd::Isa>> isa() {
+    return isa_setting("Instruction set of everything but the ray tracer");
+}
+
+// Settings of which some are options here.
+template <class V>
+void each_setting_of(BenchOptions& o, const V& visit) {
+    renderer::each_frame_setting(o.image, visit);
+    renderer::each_light_setting(o.image, visit);
+    renderer::each_tracer_setting(o.image, o.execution, visit);
+}
+
+// A setting that `penumbra render` has too, explained for this command.
+void declare_setting(CLI::App& command, BenchOptions& o, std::string_view name,
+                     std::string_view help) {
+    each_setting_of(o, [&](auto setting, auto& value) {
+        if (setting.name != name) return;
+        setting.help = help;
+        SettingDeclarer(command, o.texts)(setting, value);
+    });
+}
 
 void declare_what(CLI::App& command, BenchOptions& o) {
     command
@@ -29,12 +50,8 @@ void declare_what(CLI::App& command, BenchOptions& o) {
     command.option_defaults()->group(kWhatGroup);
     command.add_option("--frame", o.frame, "Which frame of each scene [its first one]")
         ->check(in_range(1, 1e9));
-    command.add_option("--size", o.size, "Size of the picture in pixels [the scene's]")
-        ->type_name("WIDTHxHEIGHT");
-    command
-        .add_option("--spp", o.samples_per_pixel,
-                    "Shadow rays per light and pixel [the scene's, else 1]")
-        ->check(in_range(1, 64));
+    declare_setting(command, o, "size", "Size of the picture in pixels [the scene's]");
+    declare_setting(command, o, "spp", "Shadow rays per light and pixel [the scene's, else 1]");
 }
 
 void declare_how(CLI::App& command, BenchOptions& o) {
@@ -111,33 +128,9 @@ void declare_output(CLI::App& command, BenchOptions& o) {
 
 void declare_execution(CLI::App& command, BenchOptions& o) {
     command.option_defaults()->group(kRunningGroup);
-    command.add_option("--isa", o.isa, "Instruction set of everything but the ray tracer")
-        ->check(CLI::IsMember({"auto", "avx2", "avx512"}))
-        ->capture_default_str();
-    command
-        .add_option("--trace-isa", o.trace_isa,
-                    "Instruction set of the ray tracer, in the frames and in their limits")
-        ->check(CLI::IsMember({"avx2", "avx512", "auto"}))
-        ->capture_default_str();
-}
-
-void read_size(const std::string& text, renderer::ImageSettings& image) {
-    int width = 0;
-    int height = 0;
-    int end = 0;
-    const int found = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end);
-    const auto is_side = [](int side) { return side >= 1 && side <= kLargestSide; };
-    if (found != 2 || end != static_cast<int>(text.size()) || !is_side(width) || !is_side(height))
-        throw InputError(fmt::format("--size: expected WIDTHxHEIGHT, each 1 to {}, got \"{}\"",
-                                     kLargestSide, text));
-    image.width = width;
-    image.height = height;
-}
-
-std::optional<simd::Isa> kernel_isa(const std::string& word) {
-    if (word == "avx2") return simd::Isa::kAvx2;
-    if (word == "avx512") return simd::Isa::kAvx512;
-    return std::nullopt;
+    SettingDeclarer(command, o.texts)(isa(), o.execution.isa);
+    declare_setting(command, o, "trace-isa",
+                    "Instruction set of the ray tracer, in the frames and in their limits");
 }
 
 }  // namespace
@@ -167,18 +160,22 @@ void declare_options(CLI::App& command, BenchOptions& options) {
     declare_execution(command, options);
 }
 
-bench::BenchSettings interpret(const BenchOptions& o) {
+bench::BenchSettings interpret(const BenchOptions& options) {
+    BenchOptions o = options;
+    const SettingReader read(o.texts);
+    each_setting_of(o, read);
+    read(isa(), o.execution.isa);
     bench::BenchSettings settings{.scenes = o.scenes,
                                   .frame = o.frame,
+                                  .image = o.image,
+                                  .execution = o.execution,
                                   .threads = o.threads,
                                   .warmups = o.warmups,
                                   .repetitions = o.repetitions,
                                   .patience_seconds = o.patience};
     if (settings.scenes.empty()) settings.scenes.emplace_back();
-    if (!o.size.empty()) read_size(o.size, settings.image);
-    settings.image.samples_per_pixel = o.samples_per_pixel;
-    settings.execution.isa = kernel_isa(o.isa);
-    settings.execution.trace_isa = shadow::parse_trace_isa(o.trace_isa);
+    // Refuses what this processor does not have.
+    static_cast<void>(shadow::parse_trace_isa(shadow::name(o.execution.trace_isa)));
     if (settings.threads.empty())
         settings.threads = bench::thread_sweep(parallel::default_thread_count());
     // Each number once, the fewest first: what speed-ups refer to.

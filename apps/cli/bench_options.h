@@ -6,16 +6,19 @@
 #include <vector>
 
 #include "apps/bench/measure.h"
+#include "apps/cli/setting_options.h"
 
 namespace penumbra::cli {
 
-// The options of `penumbra bench`, as the user wrote them.
+// The options of `penumbra bench`, as the user wrote them; settings that are written in words are
+// their defaults until interpret().
 struct BenchOptions {
     std::vector<std::string> scenes;
-    std::string size, isa = "auto", trace_isa = "avx2";
+    SettingTexts texts;
+    renderer::ImageSettings image;
+    renderer::ExecutionSettings execution;
     std::vector<int> threads;
     int frame = 0;
-    int samples_per_pixel = 0;
     int warmups = 2;
     int repetitions = 11;
     int launches = 0;     // 0: as is fit

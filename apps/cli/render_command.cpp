@@ -102,7 +102,7 @@ int render(RenderOptions& options) {
 
     profile::Profile profile;
     if (!options.trace.empty()) options.execution.profile = &profile;
-    Progress progress(progress_style(options), static_cast<int>(frames.size()));
+    Progress progress(options.progress, static_cast<int>(frames.size()));
     const renderer::SequenceReport report = renderer::render_sequence(
         scene, frames, options.image, options.execution, options.output,
         [&](const renderer::FrameReport& frame) { progress.report(frame); }, catch_interrupts());
