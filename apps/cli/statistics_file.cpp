@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/renderer/renderer.h"
+#include "apps/renderer/settings_table.h"
 #include "apps/renderer/version.h"
 #include "core/image/publish.h"
 
@@ -48,6 +50,29 @@ ordered_json frame_entry(const renderer::FrameReport& frame) {
     return entry;
 }
 
+// Numbers as their shortest text, which as doubles of floats they would not have.
+ordered_json json_of(const renderer::Number& setting, const auto& value) {
+    return ordered_json::parse(text_of(setting, value));
+}
+ordered_json json_of(const renderer::Flag&, bool value) {
+    return value;
+}
+ordered_json json_of(const auto& setting, const auto& value) {
+    return text_of(setting, value);
+}
+
+// What was not said is left out.
+ordered_json settings(const Scene& scene, const RenderOptions& options) {
+    const renderer::ImageSettings image = renderer::completed(scene, options.image);
+    ordered_json result;
+    renderer::each_setting(image, options.execution, options.output,
+                           [&](const auto& setting, const auto& value) {
+                               if (!text_of(setting, value).empty())
+                                   result[std::string(setting.name)] = json_of(setting, value);
+                           });
+    return result;
+}
+
 std::size_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -62,6 +87,7 @@ void write_statistics(const std::string& path, const Scene& scene, const RenderO
     for (const Mesh& mesh : scene.meshes) dropped += mesh.dropped_triangles;
     ordered_json root = {{"software", std::string("penumbra ") + std::string(renderer::version())},
                          {"scene", options.scene.empty() ? "built-in" : options.scene},
+                         {"settings", settings(scene, options)},
                          {"wall_seconds", report.wall_seconds},
                          {"peak_memory_bytes", peak_memory_bytes()},
                          {"dropped_triangles", dropped},

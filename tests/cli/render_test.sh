@@ -147,8 +147,10 @@ resumed_with_another_noise_radius() {
 check "without a filter the noise estimate's settings still count, as they show in E" resumed_with_another_noise_radius
 
 # ---- settings in files
-check "the header names the settings" bash -c "'$penumbra' render shot.json -f 1 -o set.exr --spp 2 --reproducible >/dev/null &&
-    '$penumbra' info set.exr | grep -q '^penumbraSettings size 160x96, .* spp 2, .* reproducible true'"
+check "statistics name the settings" bash -c "'$penumbra' render shot.json -f 1 -o set.exr --spp 2 --reproducible --stats set.json >/dev/null &&
+    grep -q '\"size\": \"160x96\"' set.json && grep -q '\"spp\": 2' set.json && grep -q '\"reproducible\": true' set.json &&
+    grep -q '\"noise-full\": 1.5' set.json"
+check "so does the header" bash -c "'$penumbra' info set.exr | grep -q '^penumbraSettings size 160x96, .* spp 2, .* reproducible true'"
 
 # ---- help
 check "--help explains every option" bash -c \
