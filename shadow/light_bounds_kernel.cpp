@@ -48,20 +48,20 @@ float highest(const F& v) {
     return -lowest(-v);
 }
 
-// The most of the specular lobe's density: its map shrinks no vector by more than its smallest
-// singular value s, so that density = z det / (pi |K w|^4) <= det / (pi s^3).
-F lobe_peak(const LtcEntry<F>& entry) {
-    const F trace = simd::fma(entry.m00, entry.m00, entry.m02 * entry.m02) +
-                    simd::fma(entry.m20, entry.m20, entry.m22 * entry.m22);
-    const F squared_determinant = entry.determinant * entry.determinant;
-    const F root =
-        simd::sqrt(simd::max(simd::fma(trace, trace, F(-4) * squared_determinant), F(0)));
-    const F squared_smallest = simd::min(F(2) * squared_determinant / (trace + root), F(1));
-    return F(kOneOverPi) * entry.determinant / (squared_smallest * simd::sqrt(squared_smallest));
+// The glossy U of a light is a mean over points of the light: within a few per cent of what it
+// bounds here.
+constexpr float kGlossySlack = 1.05f;
+
+// The most of the specular lobe, per steradian, without Fresnel: the distribution is at most
+// 1 / (pi alpha^2), and cosine over masking grows with the cosine (core/bsdf/ggx.h).
+F lobe_peak(const F& alpha, const F& cos_view) {
+    return F(0.5f * static_cast<float>(kOneOverPi)) /
+           (alpha * alpha * (ggx_smith_root(alpha, cos_view) + cos_view));
 }
 
 struct Ranges {
-    Range3 position, normal, albedo, specular, specular_peak;
+    Range3 position, normal, albedo, specular, f0;
+    F peak = F(0);
     M any_hit = M(false);
 };
 
@@ -74,16 +74,18 @@ void include_pixels(const shadow::BoundsJob& job, int x, int y, Ranges& ranges) 
     const Vec3<F> to_eye = broadcast<F>(job.eye) - position;
     const F inverse = F(1) / simd::sqrt(simd::max(length_squared(to_eye), F(1e-36f)));
     const F roughness = simd::load<F>(surface.roughness.row(y) + x);
-    const LtcEntry<F> entry = ltc_lookup(roughness, dot(normal, to_eye * inverse));
+    const F cos_view = simd::saturate(dot(normal, to_eye * inverse));
+    const LtcEntry<F> entry = ltc_lookup(roughness, cos_view);
     const Brdf<F> brdf = make_brdf(load3(surface.base_color, x, y), roughness,
                                    simd::load<F>(surface.metallic.row(y) + x),
                                    simd::load<F>(surface.dielectric_f0.row(y) + x));
-    const Vec3<F> scale = ltc_specular_scale(entry, brdf.f0);
     ranges.position.include(position, hit);
     ranges.normal.include(normal, hit);
     ranges.albedo.include(brdf.diffuse_albedo, hit);
-    ranges.specular.include(scale, hit);
-    ranges.specular_peak.include(scale * lobe_peak(entry), hit);
+    ranges.specular.include(ltc_specular_albedo(entry, brdf.f0) * F(kGlossySlack), hit);
+    ranges.f0.include(brdf.f0, hit);
+    ranges.peak = simd::max(
+        simd::select(hit, lobe_peak(brdf.alpha, cos_view) * F(kGlossySlack), F(0)), ranges.peak);
     ranges.any_hit |= hit;
 }
 
@@ -127,7 +129,8 @@ void bound_block(const shadow::BoundsJob& job, int block, BlockBounds& bounds) {
     bounds.albedo_low[2][block] = lowest(ranges.albedo.low.z);
     high3(ranges.albedo.high, block, bounds.albedo_high);
     high3(ranges.specular.high, block, bounds.specular);
-    high3(ranges.specular_peak.high, block, bounds.specular_peak);
+    high3(ranges.f0.high, block, bounds.f0);
+    bounds.peak[block] = highest(ranges.peak);
 }
 
 Vec3<F> load_blocks(const float (&from)[3][kBlocks], int block) {
@@ -139,9 +142,28 @@ Vec3<F> min3(const Vec3<F>& a, const Vec3<F>& b) {
     return {simd::min(a.x, b.x), simd::min(a.y, b.y), simd::min(a.z, b.z)};
 }
 
+// The most of Schlick's (1 - v.h)^5 between the eye and a light, each seen from the ball as a cone:
+// v.h is the cosine of half the angle between them.
+F largest_fresnel_weight(const shadow::SurfaceBall<F>& ball, const Vec3f& eye,
+                         const PolygonShape<float>& light) {
+    const Vec3<F> to_eye = broadcast<F>(eye) - ball.center;
+    const Vec3<F> to_light = broadcast<F>(light.center) - ball.center;
+    const F eye_distance = simd::max(length(to_eye), F(1e-18f));
+    const F light_distance = simd::max(length(to_light), F(1e-18f));
+    const F cosine = dot(to_eye, to_light) / (eye_distance * light_distance);
+    const F half_cosine = simd::sqrt(simd::saturate(simd::fma(F(0.5f), cosine, F(0.5f))));
+    // Half the cones' sines, each at most pi / 2 of the half angle's radians; cosines change no
+    // faster than angles.
+    const F sines = ball.radius / eye_distance + (ball.radius + F(light.radius)) / light_distance;
+    const F least = half_cosine - F(0.25f * 3.1415927f) * sines;
+    const F miss = F(1) - simd::saturate(least);
+    const F miss2 = miss * miss;
+    return miss2 * miss2 * miss;
+}
+
 // One light over as many blocks as there are lanes.
-void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, int block,
-                 float* upper, float* lower) {
+void bound_light(const shadow::ShadedLight& light, const Vec3f& eye, const BlockBounds& bounds,
+                 int block, float* upper, float* lower) {
     const F radius = simd::load<F>(bounds.radius + block);
     const M used = radius >= F(0);
     const shadow::SurfaceBall<F> ball{load_blocks(bounds.center, block), radius,
@@ -149,8 +171,12 @@ void bound_light(const shadow::ShadedLight& light, const BlockBounds& bounds, in
                                       simd::load<F>(bounds.normal_radius + block)};
     const auto form = shadow::bound_form_factor(ball, light.shape);
     const Vec3<F> radiance = broadcast<F>(light.radiance);
-    const Vec3<F> glossy = min3(load_blocks(bounds.specular, block),
-                                load_blocks(bounds.specular_peak, block) * form.solid_angle_high);
+    const F weight = largest_fresnel_weight(ball, eye, light.shape);
+    const Vec3<F> fresnel =
+        fma(load_blocks(bounds.f0, block), F(1) - weight, Vec3<F>{weight, weight, weight});
+    const Vec3<F> glossy =
+        min3(load_blocks(bounds.specular, block),
+             fresnel * (simd::load<F>(bounds.peak + block) * form.solid_angle_high));
     const Vec3<F> high = fma(load_blocks(bounds.albedo_high, block), form.lambert_high, glossy);
     const Vec3<F> low = load_blocks(bounds.albedo_low, block) * form.lambert_low;
     simd::store(upper + block,
@@ -166,7 +192,7 @@ void bound_lights(const shadow::BoundsJob& job) {
     for (int block = 0; block < kBlocks; ++block) bound_block(job, block, bounds);
     for (int i = 0; i < job.light_count; ++i)
         for (int block = 0; block < kBlocks; block += kLanes)
-            bound_light(job.lights[i], bounds, block, job.upper + i * kBlocks,
+            bound_light(job.lights[i], job.eye, bounds, block, job.upper + i * kBlocks,
                         job.lower + i * kBlocks);
 }
 

@@ -16,8 +16,9 @@ struct alignas(64) BlockBounds {
     float center[3][kBlocks], radius[kBlocks];                // of the positions
     float normal_center[3][kBlocks], normal_radius[kBlocks];  // of the shading normals
     float albedo_low[3][kBlocks], albedo_high[3][kBlocks];    // of the diffuse lobe
-    float specular[3][kBlocks];                               // largest ltc_specular_scale
-    float specular_peak[3][kBlocks];  // largest ltc_specular_scale * density per steradian
+    float specular[3][kBlocks];                               // largest glossy albedo
+    float f0[3][kBlocks];  // largest reflectance at normal incidence
+    float peak[kBlocks];   // largest glossy BRDF times cosine without Fresnel
 };
 
 struct BoundsJob {

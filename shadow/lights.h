@@ -7,6 +7,7 @@
 #include "core/frame/frame_context.h"
 #include "core/frame/scene_view.h"
 #include "core/frame/surface.h"
+#include "core/light/lobe_accuracy.h"
 #include "core/light/polygon_shape.h"
 
 // The lights of a frame as the analytic passes read them, and the choice of those that matter to a
@@ -26,6 +27,7 @@ struct ShadedLight {
 // One entry per light of SceneView::lights, in the same order.
 struct LightSet {
     std::vector<ShadedLight> lights;
+    LobeAccuracy accuracy = LobeAccuracy::kExact;  // of their glossy U
 };
 
 // Once per frame.

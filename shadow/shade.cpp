@@ -13,6 +13,7 @@ void shade(const LightSet& set, const TileLights& tile_lights, const SceneView& 
                                      .kept = kept.data(),
                                      .kept_count = static_cast<int>(kept.size()),
                                      .eye = view.camera.eye,
+                                     .accuracy = set.accuracy,
                                      .surface = surface,
                                      .sums = sums});
 }

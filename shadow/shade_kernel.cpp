@@ -28,7 +28,7 @@ void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& v) {
                                         simd::load<F>(surface.metallic.row(y) + x),
                                         simd::load<F>(surface.dielectric_f0.row(y) + x)};
     shadow::ShadingLobes<F> lobes;
-    shadow::Unshadowed<F> sum;
+    shadow::ArrivingLight<F> sum;
     bool is_lit = false;
     for (int i = 0; i < job.kept_count; ++i) {
         const shadow::ShadedLight& light = job.lights[job.kept[i]];
@@ -37,10 +37,10 @@ void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& v) {
         // The table is only asked where some light arrives.
         if (!is_lit) lobes = shadow::make_lobes(point);
         is_lit = true;
-        shadow::add_light(light.shape, light.radiance, seen, point.normal, lobes, sum);
+        shadow::add_light(light.shape, light.radiance, seen, point.normal, lobes, job.accuracy,
+                          sum);
     }
-    if (!is_lit) return sum;
-    return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
+    return is_lit ? shadow::reflect(lobes, sum) : shadow::Unshadowed<F>{};
 }
 
 }  // namespace

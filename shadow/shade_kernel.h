@@ -13,6 +13,7 @@ struct ShadeJob {
     const std::uint32_t* kept;
     int kept_count;
     Vec3f eye;
+    LobeAccuracy accuracy;
     ConstSurfaceView surface;
     LightSumsView sums;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/light/ltc_table.h"
+#include "core/light/lobe_ratio.h"
 #include "core/light/polygon.h"
 #include "core/math/frame.h"
 
@@ -22,22 +22,38 @@ struct ShadingPoint {
 // What depends on the surface and the viewer, but not on the lights.
 template <class F>
 struct ShadingLobes {
-    TransformedLobe<F> specular;  // unit mass over the sphere
-    Vec3<F> diffuse_scale, specular_scale;
+    TransformedLobe<F> fitted;  // unit mass over the hemisphere
+    CosineSpaceLobe<F> exact;
+    Vec3<F> diffuse_albedo, f0;
+    F matte;  // the diffuse albedo's mean over the channels
 };
 
 template <class F>
 ShadingLobes<F> make_lobes(const ShadingPoint<F>& p, const float* table = kLtcTable) {
+    const F third = F(1.0f / 3);
     const Vec3<F> to_eye = p.eye - p.position;
     const Vec3<F> view = to_eye * (F(1) / simd::sqrt(simd::max(length_squared(to_eye), F(1e-36f))));
     const LtcEntry<F> entry = ltc_lookup(p.roughness, dot(p.normal, view), table);
     const Frame<F> frame = frame_from_normal_and_view(p.normal, view);
     const Brdf<F> brdf = make_brdf(p.base_color, p.roughness, p.metallic, p.dielectric_f0);
+    const Vec3<F> local_view{dot(frame.tangent, view), F(0), dot(p.normal, view)};
     return {{fma(frame.tangent, entry.m00, frame.normal * entry.m02), frame.bitangent,
-             fma(frame.tangent, entry.m20, frame.normal * entry.m22), entry.determinant},
+             frame.normal * entry.m22, entry.determinant()},
+            make_cosine_space_lobe(entry, brdf.alpha, local_view,
+                                   (brdf.f0.x + brdf.f0.y + brdf.f0.z) * third),
             brdf.diffuse_albedo,
-            ltc_specular_scale(entry, brdf.f0)};
+            brdf.f0,
+            (brdf.diffuse_albedo.x + brdf.diffuse_albedo.y + brdf.diffuse_albedo.z) * third};
 }
+
+// Sums over lights of radiance times integrals of the lobes: Lambert's, and the two terms of
+// Schlick's Fresnel. What depends on the surface's colors is still missing.
+template <class F>
+struct ArrivingLight {
+    Vec3<F> lambert{F(0), F(0), F(0)};
+    Vec3<F> plain{F(0), F(0), F(0)};    // to be multiplied with F0
+    Vec3<F> fresnel{F(0), F(0), F(0)};  // and with 1
+};
 
 // The unshadowed radiance towards the viewer, per lobe.
 template <class F>
@@ -46,25 +62,36 @@ struct Unshadowed {
     Vec3<F> glossy{F(0), F(0), F(0)};
 };
 
-// Adds one light's form factors times its radiance; the lobes' scales are still missing.
 template <class F>
 void add_light(const PolygonShape<float>& shape, const Vec3f& radiance, const SeenPolygon<F>& seen,
-               const Vec3<F>& normal, const ShadingLobes<F>& lobes, Unshadowed<F>& sum) {
+               const Vec3<F>& normal, const ShadingLobes<F>& lobes, LobeAccuracy accuracy,
+               ArrivingLight<F>& sum) {
+    CosinePolygon<F> polygon;
+    const FormFactors<F> factors = form_factors(shape, seen, normal, lobes.fitted, polygon);
+    const LobeIntegral<F> glossy = integrate_lobe(
+        lobes.exact, polygon,
+        RatioDemand<F>{seen.lit, factors.ltc, lobes.matte * factors.lambert, accuracy});
     const Vec3<F> light = broadcast<F>(radiance);
-    const FormFactors<F> arriving = form_factors(shape, seen, normal, lobes.specular);
-    sum.diffuse = fma(light, arriving.lambert, sum.diffuse);
-    sum.glossy = fma(light, arriving.ltc, sum.glossy);
+    sum.lambert = fma(light, factors.lambert, sum.lambert);
+    sum.plain = fma(light, glossy.plain - glossy.fresnel, sum.plain);
+    sum.fresnel = fma(light, glossy.fresnel, sum.fresnel);
+}
+
+template <class F>
+Unshadowed<F> reflect(const ShadingLobes<F>& lobes, const ArrivingLight<F>& light) {
+    return {lobes.diffuse_albedo * light.lambert, lobes.f0 * light.plain + light.fresnel};
 }
 
 // The unshadowed light of one polygon at one point: radiance towards the viewer.
 template <class F>
 Unshadowed<F> unshadowed_light(const PolygonShape<float>& shape, const Vec3f& radiance,
-                               const ShadingPoint<F>& point) {
+                               const ShadingPoint<F>& point,
+                               LobeAccuracy accuracy = LobeAccuracy::kExact) {
     const SeenPolygon<F> seen = see_polygon(shape, point.position, point.normal);
     const ShadingLobes<F> lobes = make_lobes(point);
-    Unshadowed<F> sum;
-    add_light(shape, radiance, seen, point.normal, lobes, sum);
-    return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
+    ArrivingLight<F> sum;
+    add_light(shape, radiance, seen, point.normal, lobes, accuracy, sum);
+    return reflect(lobes, sum);
 }
 
 }  // namespace penumbra::shadow

@@ -93,6 +93,7 @@ void Renderer::State::evaluate_at(int frame, FrameStatistics& statistics) {
     camera = view.camera;
     if (image.method != Method::kUnshadowed) occluders.update(view);
     shadow::prepare_lights(view, lights);
+    lights.accuracy = image.unshadowed;
 }
 
 // S_N and U_N: one ray per pixel, light and sample at a time, so that rays fit the cache.

@@ -7,6 +7,7 @@
 
 #include "apps/renderer/frame_statistics.h"
 #include "core/frame/tile.h"
+#include "core/light/lobe_accuracy.h"
 #include "core/parallel/tiles.h"
 #include "core/profile/profile.h"
 #include "core/simd/isa.h"
@@ -32,6 +33,7 @@ struct ImageSettings {
     Denoise denoise = Denoise::kNoiseDriven;
     int samples_per_pixel = 0;  // shadow rays per light and pixel, 1 to 64; 0: the scene's
     int passes = 1;             // --aa: jittered passes, 1 to 256
+    LobeAccuracy unshadowed = LobeAccuracy::kExact;  // of the glossy part of U
     denoise::NoiseSettings noise;
     denoise::FilterSettings filter;
     std::uint32_t seed = 0;

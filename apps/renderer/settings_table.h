@@ -42,6 +42,13 @@ void each_light_setting(Image& image, const V& visit) {
             "ratio: analytic light times the estimated shadow; stochastic: plain Monte Carlo "
             "with the same rays; unshadowed: the analytic light alone"},
         image.method);
+    visit(
+        Choice<LobeAccuracy>{
+            "unshadowed",
+            {{"exact", LobeAccuracy::kExact}, {"fast", LobeAccuracy::kFast}},
+            "Glossy light without shadows: exact, equal to the BRDF's integral to about 0.1 %, or "
+            "fast, to about 1 %"},
+        image.unshadowed);
     visit(Number{"spp", 1, 64, "Shadow rays per light and pixel, 1 to 64 [the scene's, else 1]"},
           image.samples_per_pixel);
     visit(Number{"aa", 1, 256, "Passes per frame at jittered places, for smooth edges"},

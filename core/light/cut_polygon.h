@@ -2,7 +2,7 @@
 
 #include "core/light/polygon_edges.h"
 
-// The integral over the part of a polygon that lies above the point's horizon and the lobe's own.
+// The integral over the part of a polygon that lies above the point's horizon.
 
 namespace penumbra::detail {
 
@@ -66,42 +66,13 @@ F clipped_small_form_factor(const PolygonShape<T>& light, const ClippedPolygon<F
 }
 
 template <class F, class T, class Lobe>
-F part_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
-                   const simd::MaskOf<F>& small, const ClippedPolygon<F>& part) {
-    const F result = clipped_edge_sum(part, seen.vertices[0], lobe) *
-                     (seen.winding * F(T(0.5 * 0.318309886183790672)));
-    if (simd::none(small)) return result;
-    return simd::select(small, clipped_small_form_factor(light, part, seen, lobe), result);
-}
-
-// Of a cosine's part above the horizon, which is its own.
-template <class F, class T>
-F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                  const CosineLobe<F>& lobe, const simd::MaskOf<F>& small,
-                  const ClippedPolygon<F>& above) {
-    return simd::select(above.visible, part_form_factor(light, seen, lobe, small, above), F(0));
-}
-
-// Of what lies above the lobe's own horizon too.
-template <class F, class T>
-F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                  const TransformedLobe<F>& lobe, const simd::MaskOf<F>& small,
-                  const ClippedPolygon<F>& above) {
-    F heights[kMaxClippedVertices];
-    F highest = F(0);
-    F lowest = F(0);
-    for (int i = 0; i < above.count; ++i) {
-        heights[i] = lobe.height(lobe.direction(seen.vertices[0] + above.vertices[i]));
-        highest = simd::max(heights[i], highest);
-        lowest = simd::min(heights[i], lowest);
-    }
-    const auto visible = above.visible & (highest > F(0));
-    // Cutting nothing off would only repeat a vertex, and an edge without length adds nothing.
-    if (simd::none(visible & (lowest < F(0))))
-        return simd::select(visible, part_form_factor(light, seen, lobe, small, above), F(0));
-    ClippedPolygon<F> part;
-    clip_by_heights(above.vertices, heights, above.count, part);
-    return simd::select(visible, part_form_factor(light, seen, lobe, small, part), F(0));
+F cut_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
+                  const simd::MaskOf<F>& small, const ClippedPolygon<F>& above) {
+    F result = clipped_edge_sum(above, seen.vertices[0], lobe) *
+               (seen.winding * F(T(0.5 * 0.318309886183790672)));
+    if (simd::any(small))
+        result = simd::select(small, clipped_small_form_factor(light, above, seen, lobe), result);
+    return simd::select(above.visible, result, F(0));
 }
 
 }  // namespace penumbra::detail

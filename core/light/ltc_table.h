@@ -6,37 +6,27 @@
 
 // Linearly transformed cosines for our GGX: Heitz, Dupuy, Hill and Neubelt, "Real-Time
 // Polygonal-Light Shading with Linearly Transformed Cosines" (2016), with a table of our own
-// (apps/tools/ltc_fit). Differs from theirs: all four entries of the matrix are fitted, the lower
-// row is stored divided by alpha, the angle axis resolves grazing views, and the amplitudes know
-// the horizon.
+// (apps/tools/ltc_fit). Differs from theirs: the matrix keeps the horizon in its place, so that a
+// light which was clipped to the horizon once is so for both lobes and no light is lost or leaks;
+// the lower row is stored divided by alpha, and the angle axis resolves grazing views.
 //
 // The frame is that of frame_from_normal_and_view: z is the normal, the view is (sin, 0, cos).
 //
-// How a light is shaded. With D the distribution of the entry (a density over the whole sphere) and
-// H the light's directions above the horizon,
-//     specular radiance = L * ltc_specular_scale(entry, f0) * (integral of D over H)
-// that is: clip the light to the true horizon first, then transform its vertices by to_cosine_space
-// and integrate the clamped cosine. `norm` and `fresnel` are already divided by the mass of D above
-// the horizon, so that a light that fills the hemisphere gives exactly the tabulated albedo.
-//
-// Measured through the lookup (ltc_fit --measure; 20 roughnesses x 20 angles up to 89 degrees):
-// mean L1 distance of the lobes 0.099 of their albedo, L2 0.076, error of the albedo 6e-5 (at most
-// 0.0018), mass below the horizon 0.22 % (at most 0.9 %); mean error of the radiance of 640 random
-// polygons 0.0023. The largest errors are those of views near grazing.
+// The table is where the integral over a light begins and not where it ends: the entry's
+// distribution D is close to the lobe but not the lobe, and core/light/lobe_ratio.h multiplies its
+// integral with the mean of lobe / D over the light.
 
 namespace penumbra {
 
 template <class F>
 struct LtcEntry {
-    // The inverse matrix is ((m00, 0, m02), (0, 1, 0), (m20, 0, m22)), with a positive determinant.
-    F m00, m02, m20, m22;
-    F determinant;
-    // Amplitudes for the two terms of Schlick's Fresnel F0 + (1 - F0) (1 - V.H)^5, each the
-    // integral of the BRDF times cosine (and times that weight, for `fresnel`) over the mass above
-    // the horizon.
+    // The inverse matrix is ((m00, 0, m02), (0, 1, 0), (0, 0, m22)), with m00, m22 > 0.
+    F m00, m02, m22;
+    // Albedos for the two terms of Schlick's Fresnel F0 + (1 - F0) (1 - V.H)^5: the integrals of
+    // the BRDF times cosine, and of that times (1 - V.H)^5.
     F norm, fresnel;
-    // The integral of D over z > 0, in [0.99, 1]. norm * mass_above_horizon is the albedo at F = 1.
-    F mass_above_horizon;
+
+    [[nodiscard]] F determinant() const { return m00 * m22; }
 };
 
 // Number of nodes along each axis of the table. Roughness is linear from kMinimumRoughness to 1.
@@ -46,9 +36,9 @@ inline constexpr int kLtcAngleNodes = 64;
 inline constexpr float kLtcGrazingStretch = 1.5f;
 
 // kLtcRoughnessNodes x kLtcAngleNodes rows of kLtcRowFloats floats, the angle running fastest:
-// cos and sin of the tilt of the lobe's ridge, the stretch (m00, m02) = stretch * (cos, sin), m20 /
-// alpha, m22 / alpha, norm, fresnel, mass_above_horizon. In these terms the narrowest lobes at
-// grazing views vary as slowly as wide ones, so that bilinear interpolation keeps their direction.
+// cos and sin of the tilt of the lobe's ridge, the stretch (m00, m02) = stretch * (cos, sin), m22 /
+// alpha, norm, fresnel, and two zeros. In these terms the narrowest lobes at grazing views vary as
+// slowly as wide ones, so that bilinear interpolation keeps their direction.
 extern const float kLtcTable[];
 
 // Position along the angle axis, 0 at normal incidence and 1 at grazing. Like the angle itself near
@@ -70,37 +60,30 @@ LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view, const float* table
 template <class F>
 Vec3<F> to_cosine_space(const LtcEntry<F>& entry, const Vec3<F>& direction) {
     return {simd::fma(entry.m00, direction.x, entry.m02 * direction.z), direction.y,
-            simd::fma(entry.m20, direction.x, entry.m22 * direction.z)};
+            entry.m22 * direction.z};
 }
 
 // The way back, up to a positive factor.
 template <class F>
 Vec3<F> from_cosine_space(const LtcEntry<F>& entry, const Vec3<F>& direction) {
     return {simd::fma(entry.m22, direction.x, -(entry.m02 * direction.z)),
-            entry.determinant * direction.y,
-            simd::fma(entry.m00, direction.z, -(entry.m20 * direction.x))};
+            entry.determinant() * direction.y, entry.m00 * direction.z};
 }
 
-// D of a unit direction, per steradian. It integrates to 1 over the sphere.
+// D of a unit direction, per steradian. It integrates to 1 over the hemisphere above the horizon.
 template <class F>
 F ltc_density(const LtcEntry<F>& entry, const Vec3<F>& direction) {
     const Vec3<F> q = to_cosine_space(entry, direction);
     const F squared = length_squared(q);
-    return F(kOneOverPi) * simd::max(q.z, F(0)) * entry.determinant / (squared * squared);
-}
-
-// What the integral of D over a light is multiplied with, beside the light's radiance.
-template <class F>
-Vec3<F> ltc_specular_scale(const LtcEntry<F>& entry, const Vec3<F>& f0) {
-    const F slope = entry.norm - entry.fresnel;
-    return {simd::fma(f0.x, slope, entry.fresnel), simd::fma(f0.y, slope, entry.fresnel),
-            simd::fma(f0.z, slope, entry.fresnel)};
+    return F(kOneOverPi) * simd::max(q.z, F(0)) * entry.determinant() / (squared * squared);
 }
 
 // The share of the light that a surface under uniform light of radiance 1 reflects specularly.
 template <class F>
 Vec3<F> ltc_specular_albedo(const LtcEntry<F>& entry, const Vec3<F>& f0) {
-    return ltc_specular_scale(entry, f0) * entry.mass_above_horizon;
+    const F slope = entry.norm - entry.fresnel;
+    return {simd::fma(f0.x, slope, entry.fresnel), simd::fma(f0.y, slope, entry.fresnel),
+            simd::fma(f0.z, slope, entry.fresnel)};
 }
 
 // ---- implementation --------------------------------------------------------------------------
@@ -116,12 +99,9 @@ LtcEntry<F> ltc_lookup(const F& roughness, const F& cos_view, const float* table
     LtcEntry<F> entry{};
     entry.m00 = row.column[2] * row.column[0];
     entry.m02 = row.column[2] * row.column[1];
-    entry.m20 = row.column[3] * alpha;
-    entry.m22 = row.column[4] * alpha;
-    entry.determinant = simd::fma(entry.m00, entry.m22, -(entry.m02 * entry.m20));
-    entry.norm = row.column[5];
-    entry.fresnel = row.column[6];
-    entry.mass_above_horizon = row.column[7];
+    entry.m22 = row.column[3] * alpha;
+    entry.norm = row.column[4];
+    entry.fresnel = row.column[5];
     return entry;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/light/cosine_polygon.h"
 #include "core/light/cut_polygon.h"
 
 // Closed forms for the light of a convex polygon of constant radiance at one shading point, without
@@ -90,22 +91,11 @@ AngularSize<F> angular_size(const PolygonShape<T>& light, const SeenPolygon<F>& 
 template <class F, class T, class Lobe>
 F form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen, const Lobe& lobe,
               ClippedPolygon<F>& above) {
-    auto lit = seen.lit;
-    auto cut = seen.crosses_horizon;
-    Vec3<F> directions[kMaxPolygonVertices];
-    if constexpr (Lobe::kTransforms) {
-        auto peeks_out = lit & (!lit);
-        for (int i = 0; i < light.count; ++i) {
-            directions[i] = lobe.direction(seen.vertices[i]);
-            const auto below = lobe.height(directions[i]) < F(0);
-            peeks_out = peeks_out | (!below);
-            cut = cut | below;
-        }
-        lit = lit & peeks_out;
-    } else {
-        for (int i = 0; i < light.count; ++i) directions[i] = seen.vertices[i];
-    }
+    const auto& lit = seen.lit;
+    const auto& cut = seen.crosses_horizon;
     if (!simd::any(lit)) return F(0);
+    Vec3<F> directions[kMaxPolygonVertices];
+    for (int i = 0; i < light.count; ++i) directions[i] = lobe.direction(seen.vertices[i]);
     const AngularSize<F> size = angular_size(light, seen, lobe);
     const auto small = size.is_below(F(kSmallLight<T>));
     F result = F(0);
@@ -132,24 +122,52 @@ F lambert_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
     return detail::form_factor(light, seen, CosineLobe<F>{normal}, above);
 }
 
+namespace detail {
+
+// Of what the transformed lobe sees of the light.
 template <class F, class T>
-F ltc_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                  const TransformedLobe<F>& lobe) {
-    ClippedPolygon<F> above;
-    return detail::form_factor(light, seen, lobe, above);
+F cosine_space_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                           const TransformedLobe<F>& lobe, const ClippedPolygon<F>& above,
+                           const CosinePolygon<F>& polygon) {
+    const auto& lit = seen.lit;
+    const auto& cut = seen.crosses_horizon;
+    const AngularSize<F> size = angular_size(light, seen, lobe);
+    const auto small = (!cut) & size.is_below(F(kSmallLight<T>));
+    const auto small_cut = cut & size.is_below(F(kSmallCutLight<T>));
+    F result = polygon.irradiance.z * F(T(0.5 * 0.318309886183790672));
+    if (simd::any(lit & small))
+        result = simd::select(small, small_form_factor(light, seen, lobe), result);
+    if (simd::any(lit & small_cut))
+        result =
+            simd::select(small_cut, clipped_small_form_factor(light, above, seen, lobe), result);
+    return simd::select(lit, simd::saturate(result), F(0));
 }
 
-// Both for the price of one clip.
+}  // namespace detail
+
+// Both for the price of one clip, and what is left of the light, as the transformed lobe sees it.
 template <class F>
 struct FormFactors {
     F lambert, ltc;
 };
 template <class F, class T>
 FormFactors<F> form_factors(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
-                            const Vec3<F>& normal, const TransformedLobe<F>& lobe) {
+                            const Vec3<F>& normal, const TransformedLobe<F>& lobe,
+                            CosinePolygon<F>& polygon) {
     ClippedPolygon<F> above;
     const F lambert = detail::form_factor(light, seen, CosineLobe<F>{normal}, above);
-    return {lambert, detail::form_factor(light, seen, lobe, above)};
+    make_cosine_polygon(light, seen, lobe, above, polygon);
+    return {lambert, detail::cosine_space_form_factor(light, seen, lobe, above, polygon)};
+}
+
+template <class F, class T>
+F ltc_form_factor(const PolygonShape<T>& light, const SeenPolygon<F>& seen,
+                  const TransformedLobe<F>& lobe) {
+    ClippedPolygon<F> above;
+    if (simd::any(seen.lit & seen.crosses_horizon)) detail::horizon_part(light, seen, above);
+    CosinePolygon<F> polygon;
+    make_cosine_polygon(light, seen, lobe, above, polygon);
+    return detail::cosine_space_form_factor(light, seen, lobe, above, polygon);
 }
 
 }  // namespace penumbra

@@ -23,7 +23,8 @@ struct CosineLobe {
 
 // A clamped cosine after a linear map: `row_*` take a world-space vector to the space where the
 // distribution is the clamped cosine around z (the inverse matrix of the table times the shading
-// frame). Any scale; the determinant must be positive.
+// frame). Any scale; the determinant must be positive, and `row_z` a positive multiple of the
+// normal, so that the distribution's horizon is the surface's.
 template <class F>
 struct TransformedLobe {
     static constexpr bool kTransforms = true;

@@ -1,7 +1,8 @@
 // Judges the unshadowed light U of frames: the analytic U against the frame's own shadow rays,
 // untraced, many of them, on the same G-buffer.
 //
-//     unshadowed_error [--size WxH] [--rays N] [--threads N] [--images DIR] [--fail] [SCENE...]
+//     unshadowed_error [--size WxH] [--rays N] [--threads N] [--images DIR] [--fast] [--fail]
+//     [SCENE...]
 //
 // Default: the first frame of all scenes of data/scenes and tests/scenes at 480 x 270 and 4096
 // rays per pixel, 2 threads. Per scene, over the lit pixels: mean and RMSE in percent of the mean
@@ -44,6 +45,7 @@ struct Options {
     int threads = 2;
     fs::path images;
     bool fails = false;
+    bool fast = false;
     std::vector<fs::path> scenes;
 };
 
@@ -123,11 +125,13 @@ void write_images(const fs::path& folder, const std::string& name,
 }
 
 Row judge(const fs::path& file, const Scene& scene, const Options& options) {
-    tests::UnshadowedSettings settings{.frame = scene.animation.first_frame,
-                                       .batches = 2,
-                                       .rays_per_batch = options.rays / 2,
-                                       .seed = 1,
-                                       .threads = options.threads};
+    tests::UnshadowedSettings settings{
+        .frame = scene.animation.first_frame,
+        .batches = 2,
+        .rays_per_batch = options.rays / 2,
+        .seed = 1,
+        .threads = options.threads,
+        .accuracy = options.fast ? LobeAccuracy::kFast : LobeAccuracy::kExact};
     if (std::sscanf(options.size.c_str(), "%dx%d", &settings.width, &settings.height) != 2 ||
         std::min(settings.width, settings.height) < 1)
         throw InputError(fmt::format("--size: expected WIDTHxHEIGHT, got \"{}\"", options.size));
@@ -176,6 +180,7 @@ int main(int argc, char** argv) {
     app.add_option("--rays", options.rays)->check(CLI::Range(2 * tests::kRaysPerSet, 1 << 24));
     app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024));
     app.add_option("--images", options.images);
+    app.add_flag("--fast", options.fast, "judge --unshadowed fast");
     app.add_flag("--fail", options.fails);
     app.add_option("scenes", options.scenes);
     CLI11_PARSE(app, argc, argv);

@@ -25,22 +25,13 @@ PolygonShape<T> shape_of(const reference::Points& points) {
 }
 
 LtcEntry<double> in_double(const LtcEntry<float>& e) {
-    LtcEntry<double> d{};
-    d.m00 = e.m00;
-    d.m02 = e.m02;
-    d.m20 = e.m20;
-    d.m22 = e.m22;
-    d.determinant = d.m00 * d.m22 - d.m02 * d.m20;
-    d.norm = e.norm;
-    d.fresnel = e.fresnel;
-    d.mass_above_horizon = e.mass_above_horizon;
-    return d;
+    return {e.m00, e.m02, e.m22, e.norm, e.fresnel};
 }
 
 template <class T>
 TransformedLobe<T> lobe_of(const LtcEntry<T>& entry, const Frame<T>& frame) {
     return {fma(frame.tangent, entry.m00, frame.normal * entry.m02), frame.bitangent,
-            fma(frame.tangent, entry.m20, frame.normal * entry.m22), entry.determinant};
+            frame.normal * entry.m22, entry.determinant()};
 }
 
 // One light, one surface point and its lobe.
@@ -79,21 +70,7 @@ double cubature(const GlossyCase& c) {
     return reference::density_over_polygon(
         c.configuration.polygon, c.configuration.point,
         [&](const Vec3d& w) { return ltc_density(entry, frame.to_local(w)); },
-        [&](const Vec3d& v) { return dot(v, frame.normal); },
-        [&](const Vec3d& v) { return to_cosine_space(entry, frame.to_local(v)).z; });
-}
-
-double true_ggx(const GlossyCase& c) {
-    const Frame<double> frame = frame_from_normal_and_view(c.normal, c.view);
-    const Vec3d view = frame.to_local(c.view);
-    return reference::density_over_polygon(
-        c.configuration.polygon, c.configuration.point,
-        [&](const Vec3d& w) {
-            return ggx_evaluate(c.roughness * c.roughness, view, frame.to_local(w))
-                .brdf_times_cosine;
-        },
-        [&](const Vec3d& v) { return dot(v, frame.normal); }, [](const Vec3d&) { return 1.0; },
-        1e-5);
+        [&](const Vec3d& v) { return dot(v, frame.normal); }, [](const Vec3d&) { return 1.0; });
 }
 
 }  // namespace
@@ -137,20 +114,4 @@ TEST_CASE("in float the glossy form factor keeps its digits for every size and r
             CHECK(errors[errors.size() / 2] < 1e-5);
         }
     }
-}
-
-TEST_CASE("glossy light from random lights is close to that of true GGX") {
-    reference::Random random(23);
-    double sum = 0, worst = 0;
-    constexpr int kCases = 250;
-    for (int trial = 0; trial < kCases; ++trial) {
-        const GlossyCase c = random_case(random, std::exp(random.uniform(-3, 1.5)), 0.1);
-        const double approximate = form_factor(c, in_double(c.entry)) * c.entry.norm;
-        const double error = std::fabs(approximate - true_ggx(c));
-        sum += error;
-        worst = std::max(worst, error);
-    }
-    MESSAGE("mean error " << sum / kCases << ", largest " << worst);
-    CHECK(sum / kCases < 0.003);
-    CHECK(worst < 0.1);
 }

@@ -92,10 +92,10 @@ Members members(const denoise::FilterSettings& filter) {
     return {&radius, &per_noise, &smallest, &normal, &plane};
 }
 Members members(const ImageSettings& image) {
-    const auto& [width, height, crop, method, denoise, samples, passes, noise, filter, seed,
-                 tolerance, reproducible] = image;
-    Members all = {&width,   &height, &crop, &method,    &denoise,
-                   &samples, &passes, &seed, &tolerance, &reproducible};
+    const auto& [width, height, crop, method, denoise, samples, passes, unshadowed, noise, filter,
+                 seed, tolerance, reproducible] = image;
+    Members all = {&width,  &height,     &crop, &method,    &denoise,     &samples,
+                   &passes, &unshadowed, &seed, &tolerance, &reproducible};
     for (const Members& part : {members(noise), members(filter)})
         all.insert(all.end(), part.begin(), part.end());
     return all;

@@ -31,6 +31,7 @@ void prepare(const Scene& scene, const parallel::Arena& arena, Frame& frame) {
     evaluate(scene, times_of_frame(scene.animation, frame.settings.frame),
              {.width = frame.settings.width, .height = frame.settings.height}, frame.view);
     shadow::prepare_lights(frame.view, frame.lights);
+    frame.lights.accuracy = frame.settings.accuracy;
     raster::prepare(frame.view, frame.context, frame.crop, arena, frame.geometry);
     frame.offset_scales.assign(std::max<std::size_t>(frame.view.instances.size(), 1), 0.0f);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/frame/tile.h"
+#include "core/light/lobe_accuracy.h"
 #include "core/scene/scene.h"
 
 // The unshadowed light of a frame twice, on the same G-buffer: the analytic U, and the Monte Carlo
@@ -26,6 +27,7 @@ struct UnshadowedSettings {
     int rays_per_batch = kRaysPerSet;
     std::uint32_t seed = 0;  // sets of rays are frames of consecutive seeds
     int threads = 2;
+    LobeAccuracy accuracy = LobeAccuracy::kExact;
 };
 
 // Planes begin at the crop's top left.

@@ -29,12 +29,12 @@ shadow::ShadingPoint<float> point_of(const TilePlanes& tile, const Vec3f& eye, i
 shadow::Unshadowed<float> shade_one(const shadow::LightSet& set,
                                     const shadow::ShadingPoint<float>& point) {
     const shadow::ShadingLobes<float> lobes = shadow::make_lobes(point);
-    shadow::Unshadowed<float> sum;
+    shadow::ArrivingLight<float> sum;
     for (const shadow::ShadedLight& light : set.lights)
         shadow::add_light(light.shape, light.radiance,
                           see_polygon(light.shape, point.position, point.normal), point.normal,
-                          lobes, sum);
-    return {sum.diffuse * lobes.diffuse_scale, sum.glossy * lobes.specular_scale};
+                          lobes, LobeAccuracy::kExact, sum);
+    return shadow::reflect(lobes, sum);
 }
 
 void shade_all(const shadow::LightSet& set, const SceneView& scene, simd::Isa isa,

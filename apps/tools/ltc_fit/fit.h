@@ -4,46 +4,39 @@
 
 #include "apps/tools/ltc_fit/lobe.h"
 
-// Fits the four free entries of the inverse matrix to a GGX lobe by weighted least squares.
+// Fits the three free entries of the inverse matrix to a GGX lobe by weighted least squares.
 
 namespace penumbra::ltc_fit {
 
 // The inverse matrix in the terms of a fit. `tilt` is the angle of the lobe's ridge from the
 // normal, away from the view. The first row of the matrix is stretch * (cos tilt, 0, sin tilt),
-// which is 0 on the ridge; the second (0, 1, 0); the third has the components alpha * width along
-// the ridge and alpha * slope across it. The determinant is alpha * stretch * width.
+// which is 0 on the ridge; the second (0, 1, 0); the third alpha * lift * (0, 0, 1), so that the
+// horizon stays where it is. The determinant is alpha * stretch * lift * cos tilt.
 struct LtcShape {
-    double stretch, tilt, width, slope;
+    double stretch, tilt, lift;
 };
 
 struct InverseMatrix {
-    double m00, m02, m20, m22;
+    double m00, m02, m22;
 
-    [[nodiscard]] double determinant() const { return m00 * m22 - m02 * m20; }
-    // The horizon z = 0 becomes the plane across (-m20, 0, m00) in cosine space.
-    [[nodiscard]] double mass_above_horizon() const {
-        return 0.5 + 0.5 * m00 / std::hypot(m00, m20);
-    }
+    [[nodiscard]] double determinant() const { return m00 * m22; }
     [[nodiscard]] double density(const Vec3d& direction) const {
         const double x = m00 * direction.x + m02 * direction.z;
-        const double z = m20 * direction.x + m22 * direction.z;
+        const double z = m22 * direction.z;
         const double squared = x * x + direction.y * direction.y + z * z;
         return std::max(z, 0.0) * determinant() / (std::numbers::pi * squared * squared);
     }
 };
 
 inline InverseMatrix inverse_matrix(const LtcShape& shape, double alpha) {
-    const double sine = std::sin(shape.tilt);
-    const double cosine = std::cos(shape.tilt);
-    return {shape.stretch * cosine, shape.stretch * sine,
-            alpha * (shape.slope * cosine - shape.width * sine),
-            alpha * (shape.slope * sine + shape.width * cosine)};
+    return {shape.stretch * std::cos(shape.tilt), shape.stretch * std::sin(shape.tilt),
+            alpha * shape.lift};
 }
 
 // A good start for every lobe: exact for narrow ones away from grazing.
 inline LtcShape initial_shape(const LobeConfiguration& lobe) {
     const double cosine = std::max(lobe.cos_view, lobe.alpha());
-    return {cosine, std::acos(lobe.cos_view), 2 * cosine, 2 * std::sqrt(1 - cosine * cosine)};
+    return {cosine, std::acos(cosine), 2};
 }
 
 struct FitSettings {
@@ -57,8 +50,9 @@ struct FitSettings {
     int iterations = 40;
 };
 
-using Parameters = std::array<double, 4>;
-using NormalMatrix = std::array<Parameters, 4>;
+inline constexpr std::size_t kParameters = 3;
+using Parameters = std::array<double, kParameters>;
+using NormalMatrix = std::array<Parameters, kParameters>;
 
 // The weighted problem: targets (the lobe divided by its albedo) and square roots of the weights.
 class FitProblem {
@@ -74,23 +68,21 @@ class FitProblem {
                 std::pow(point.value / peak + settings.floor, -settings.flattening) / peak));
     }
 
-    // The logarithms keep stretch, width and with them the determinant positive.
+    // The logarithms keep stretch and lift positive, the tangent keeps the tilt below 90 degrees:
+    // together, the determinant positive.
     [[nodiscard]] static Parameters to_parameters(const LtcShape& shape) {
-        return {std::log(shape.stretch), shape.tilt, std::log(shape.width), shape.slope};
+        return {std::log(shape.stretch), std::tan(shape.tilt), std::log(shape.lift)};
     }
     [[nodiscard]] static LtcShape to_shape(const Parameters& p) {
-        return {std::exp(p[0]), p[1], std::exp(p[2]), p[3]};
+        return {std::exp(p[0]), std::atan(p[1]), std::exp(p[2])};
     }
 
-    // Weighted differences of target and distribution; the latter scaled to mass 1 above the
-    // horizon, as the renderer does. Below the horizon the target is 0.
+    // Weighted differences of target and distribution.
     void residuals(const Parameters& parameters, std::vector<double>& result) const {
         const InverseMatrix matrix = inverse_matrix(to_shape(parameters), alpha_);
-        const double scale = 1 / matrix.mass_above_horizon();
         result.resize(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
-            result[i] =
-                weights_[i] * (scale * matrix.density(points_[i].direction) - points_[i].value);
+            result[i] = weights_[i] * (matrix.density(points_[i].direction) - points_[i].value);
     }
 
     [[nodiscard]] double cost(const Parameters& parameters, std::vector<double>& scratch) const {
@@ -103,12 +95,13 @@ class FitProblem {
     // The Gauss-Newton system at `parameters`, by central differences.
     void linearize(const Parameters& parameters, NormalMatrix& normal, Parameters& gradient) const {
         std::vector<double> base;
-        std::array<std::vector<double>, 4> column;
+        std::array<std::vector<double>, kParameters> column;
         residuals(parameters, base);
-        for (std::size_t k = 0; k < 4; ++k) column[k] = derivative(parameters, k);
-        for (std::size_t a = 0; a < 4; ++a) {
+        for (std::size_t k = 0; k < kParameters; ++k) column[k] = derivative(parameters, k);
+        for (std::size_t a = 0; a < kParameters; ++a) {
             gradient[a] = inner_product(column[a], base);
-            for (std::size_t b = 0; b < 4; ++b) normal[a][b] = inner_product(column[a], column[b]);
+            for (std::size_t b = 0; b < kParameters; ++b)
+                normal[a][b] = inner_product(column[a], column[b]);
         }
     }
 
@@ -141,15 +134,16 @@ class FitProblem {
 
 // Solves a symmetric positive definite system by elimination.
 inline Parameters solve(NormalMatrix matrix, Parameters right) {
-    for (std::size_t pivot = 0; pivot < 4; ++pivot) {
-        for (std::size_t row = pivot + 1; row < 4; ++row) {
+    for (std::size_t pivot = 0; pivot < kParameters; ++pivot) {
+        for (std::size_t row = pivot + 1; row < kParameters; ++row) {
             const double factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for (std::size_t k = pivot; k < 4; ++k) matrix[row][k] -= factor * matrix[pivot][k];
+            for (std::size_t k = pivot; k < kParameters; ++k)
+                matrix[row][k] -= factor * matrix[pivot][k];
             right[row] -= factor * right[pivot];
         }
     }
-    for (std::size_t row = 4; row-- > 0;) {
-        for (std::size_t k = row + 1; k < 4; ++k) right[row] -= matrix[row][k] * right[k];
+    for (std::size_t row = kParameters; row-- > 0;) {
+        for (std::size_t k = row + 1; k < kParameters; ++k) right[row] -= matrix[row][k] * right[k];
         right[row] /= matrix[row][row];
     }
     return right;
@@ -170,10 +164,10 @@ inline Fit minimize(const FitProblem& problem, const LtcShape& start, int iterat
         NormalMatrix normal{};
         Parameters gradient{};
         problem.linearize(parameters, normal, gradient);
-        for (std::size_t k = 0; k < 4; ++k) normal[k][k] *= 1 + damping;
+        for (std::size_t k = 0; k < kParameters; ++k) normal[k][k] *= 1 + damping;
         const Parameters step = solve(normal, gradient);
         Parameters trial{};
-        for (std::size_t k = 0; k < 4; ++k) trial[k] = parameters[k] - step[k];
+        for (std::size_t k = 0; k < kParameters; ++k) trial[k] = parameters[k] - step[k];
         const double trial_cost = problem.cost(trial, scratch);
         const bool improves = trial_cost < cost;
         damping *= improves ? 0.2 : 8;

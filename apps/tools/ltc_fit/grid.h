@@ -30,14 +30,13 @@ inline LtcShape predict_shape(const LtcShape& from, const LobeConfiguration& the
     const LtcShape narrow_there = initial_shape(there);
     const LtcShape narrow_here = initial_shape(here);
     return {from.stretch * narrow_here.stretch / narrow_there.stretch,
-            from.tilt + narrow_here.tilt - narrow_there.tilt,
-            from.width * narrow_here.width / narrow_there.width, from.slope};
+            std::min(from.tilt + narrow_here.tilt - narrow_there.tilt, 1.57), from.lift};
 }
 
 // At normal incidence the lobe is round, so only its width is free.
 inline LtcShape fit_round_shape(const LobeConfiguration& lobe, const FitSettings& settings) {
     const LtcShape fitted = fit_shape(lobe, {initial_shape(lobe)}, settings);
-    return {1, 0, fitted.width / fitted.stretch, 0};
+    return {1, 0, fitted.lift / fitted.stretch};
 }
 
 // All angles of one roughness, from the normal to grazing, each started from its predecessor and
@@ -65,12 +64,14 @@ using TableRow = std::array<float, kLtcRowFloats>;
 inline TableRow table_row(const LobeConfiguration& lobe, const LtcShape& shape) {
     // 48 nodes on each of 512 meridians: within 1e-6 of finer rules over the whole table.
     const Albedo albedo = integrate_albedo(lobe, 48, 512);
-    const double alpha = lobe.alpha();
-    const InverseMatrix matrix = inverse_matrix(shape, alpha);
-    const double above = matrix.mass_above_horizon();
-    const std::array<double, kLtcRowFloats> row{
-        std::cos(shape.tilt), std::sin(shape.tilt), shape.stretch,          matrix.m20 / alpha,
-        matrix.m22 / alpha,   albedo.norm / above,  albedo.fresnel / above, above};
+    const std::array<double, kLtcRowFloats> row{std::cos(shape.tilt),
+                                                std::sin(shape.tilt),
+                                                shape.stretch,
+                                                shape.lift,
+                                                albedo.norm,
+                                                albedo.fresnel,
+                                                0,
+                                                0};
     TableRow result{};
     for (std::size_t i = 0; i < row.size(); ++i) result[i] = static_cast<float>(row[i]);
     return result;
@@ -78,12 +79,7 @@ inline TableRow table_row(const LobeConfiguration& lobe, const LtcShape& shape) 
 
 // The shape that a row was made from.
 inline LtcShape shape_of_row(const float* row) {
-    const double cosine = row[0];
-    const double sine = row[1];
-    const double low_x = row[3];
-    const double low_z = row[4];
-    return {row[2], std::atan2(sine, cosine), low_z * cosine - low_x * sine,
-            low_x * cosine + low_z * sine};
+    return {row[2], std::atan2(static_cast<double>(row[1]), static_cast<double>(row[0])), row[3]};
 }
 
 // The rows of one roughness.

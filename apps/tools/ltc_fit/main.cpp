@@ -57,7 +57,6 @@ void print_table_errors(const float* table, double largest_degrees) {
     print("  relative L2", errors.relative_l2);
     print("  albedo", errors.albedo);
     print("  Fresnel-weighted albedo", errors.fresnel);
-    print("  mass below the horizon", errors.mass_below_horizon);
 }
 
 void print_measurements(const float* table) {

@@ -25,24 +25,15 @@ struct MeanAndMaximum {
 // Distances between a lobe (BRDF times cosine at F = 1) and what the table makes of it, above the
 // horizon.
 struct LobeErrors {
-    double relative_l1;         // integral of |difference| over the albedo
-    double relative_l2;         // roots of the integrals of squares, likewise
-    double albedo;              // absolute
-    double fresnel;             // absolute
-    double mass_below_horizon;  // of the entry's distribution
+    double relative_l1;  // integral of |difference| over the albedo
+    double relative_l2;  // roots of the integrals of squares, likewise
+    double albedo;       // absolute
+    double fresnel;      // absolute
 };
 
 inline LobeErrors lobe_errors_on(const LtcEntry<float>& entry, const LobeConfiguration& lobe,
                                  int resolution) {
-    const LtcEntry<double> exact{
-        entry.m00,
-        entry.m02,
-        entry.m20,
-        entry.m22,
-        static_cast<double>(entry.m00) * entry.m22 - static_cast<double>(entry.m02) * entry.m20,
-        entry.norm,
-        entry.fresnel,
-        entry.mass_above_horizon};
+    const LtcEntry<double> exact{entry.m00, entry.m02, entry.m22, entry.norm, entry.fresnel};
     const std::vector<LobePoint> points = lobe_points(lobe, resolution);
     double absolute = 0;
     double squared = 0;
@@ -55,10 +46,8 @@ inline LobeErrors lobe_errors_on(const LtcEntry<float>& entry, const LobeConfigu
         value_squared += point.value * point.value * point.solid_angle;
     }
     const Albedo albedo = sum_albedo(points);
-    const double above = 0.5 + 0.5 * exact.m00 / std::hypot(exact.m00, exact.m20);
     return {absolute / albedo.norm, std::sqrt(squared / value_squared),
-            std::abs(exact.norm * above - albedo.norm),
-            std::abs(exact.fresnel * above - albedo.fresnel), 1 - above};
+            std::abs(exact.norm - albedo.norm), std::abs(exact.fresnel - albedo.fresnel)};
 }
 
 // The grid is doubled until the distances change by less than `tolerance`.
@@ -79,7 +68,7 @@ inline LobeErrors lobe_errors(const float* table, const LobeConfiguration& lobe,
 }
 
 struct TableErrors {
-    MeanAndMaximum relative_l1, relative_l2, albedo, fresnel, mass_below_horizon;
+    MeanAndMaximum relative_l1, relative_l2, albedo, fresnel;
 };
 
 // Over roughness 0.05, 0.10 ... 1.00 and the angles 0, 5, ... 80, 84, 87, 89 degrees, up to
@@ -97,13 +86,12 @@ inline TableErrors table_errors(const float* table, double largest_degrees = 90,
             errors.relative_l2.add(lobe.relative_l2);
             errors.albedo.add(lobe.albedo);
             errors.fresnel.add(lobe.fresnel);
-            errors.mass_below_horizon.add(lobe.mass_below_horizon);
         }
     }
     return errors;
 }
 
-// |radiance by the table - radiance by cubature| of random lights of radiance 1 at F = 1.
+// |radiance by the table alone - radiance by cubature| of random lights of radiance 1 at F = 1.
 inline MeanAndMaximum polygon_errors(const float* table, int first, int last, int resolution) {
     MeanAndMaximum errors;
     for (int number = first; number < last; ++number) {
@@ -112,7 +100,7 @@ inline MeanAndMaximum polygon_errors(const float* table, int first, int last, in
             ltc_lookup(static_cast<float>(light_case.lobe.roughness),
                        static_cast<float>(light_case.lobe.cos_view), table);
         errors.add(std::abs(radiance_by_table(entry, light_case.light) -
-                            radiance_by_cubature(light_case, resolution)));
+                            radiance_by_cubature(light_case, resolution).norm));
     }
     return errors;
 }

@@ -44,13 +44,15 @@ inline Vec3d direction_at(double angle, double azimuth) {
             std::cos(angle)};
 }
 
-// A convex polygon inscribed in an ellipse, its centre at distance 1.
+// A convex, flat polygon inscribed in an ellipse, its centre at distance 1; leans as far as it can
+// without reaching behind the point.
 inline Polygon inscribed_polygon(const Vec3d& centre, int corners, const Vec2<double>& radii,
                                  Random& random) {
     const Frame<double> frame = frame_from_normal(centre);
     const double turn = random.between(0, 2 * std::numbers::pi);
-    const double lean_u = random.between(-0.7, 0.7);
-    const double lean_v = random.between(-0.7, 0.7);
+    const double most = std::min(0.7, 0.55 / std::max(radii.x, radii.y));
+    const double lean_u = random.between(-most, most);
+    const double lean_v = random.between(-most, most);
     Polygon polygon;
     for (int i = 0; i < corners; ++i) {
         const double angle = 2 * std::numbers::pi * (i + random.between(0, 0.6)) / corners;
@@ -58,29 +60,31 @@ inline Polygon inscribed_polygon(const Vec3d& centre, int corners, const Vec2<do
         const double across = radii.y * std::sin(angle);
         const double u = along * std::cos(turn) - across * std::sin(turn);
         const double v = along * std::sin(turn) + across * std::cos(turn);
-        const double depth = std::clamp(lean_u * u + lean_v * v, -0.8, 10.0);
-        polygon.push_back(frame.to_world({u, v, 1 + depth}));
+        polygon.push_back(frame.to_world({u, v, 1 + lean_u * u + lean_v * v}));
     }
     return polygon;
 }
 
-// Kinds are 4 forms (triangle, quadrilateral, strip, hexagon) at 5 places: small and large near the
-// mirror direction, anywhere, across the horizon, large overhead.
+// Kinds are 4 forms (triangle, quadrilateral, strip, hexagon) at 6 places: small and large near the
+// mirror direction, anywhere, across the horizon, large overhead, all around. Views go down to n.v
+// = 0.017; every third lobe is narrow.
 inline LightCase random_light(int number) {
     Random random(static_cast<std::uint64_t>(number));
     const double degree = std::numbers::pi / 180;
-    const double roughness = random.between(0.05, 1);
+    const double roughness = random.between(0.05, number % 3 == 0 ? 0.3 : 1);
     const double view_angle = random.between(0, 89) * degree;
     const int form = number % 4;
-    const int place = number / 4 % 5;
+    const int place = number / 4 % 6;
     const double off = random.between(-0.3, 0.3);
     const double azimuth = random.between(-std::numbers::pi, std::numbers::pi);
     const double angle = random.between(0, 85) * degree;
-    const std::array<Vec3d, 5> centre{
-        direction_at(view_angle + 0.3 * off, off), direction_at(view_angle + off, off),
-        direction_at(angle, azimuth), direction_at(random.between(80, 100) * degree, 4 * off),
-        direction_at(0.3 * angle, azimuth)};
-    constexpr std::array<double, 5> kLargest{0.1, 0.8, 0.5, 0.5, 2.0};
+    const std::array<Vec3d, 6> centre{direction_at(view_angle + 0.3 * off, off),
+                                      direction_at(view_angle + off, off),
+                                      direction_at(angle, azimuth),
+                                      direction_at(random.between(80, 100) * degree, 4 * off),
+                                      direction_at(0.3 * angle, azimuth),
+                                      direction_at(0.6 * angle, azimuth)};
+    constexpr std::array<double, 6> kLargest{0.1, 0.8, 0.5, 0.5, 2.0, 30.0};
     const double radius = kLargest[static_cast<std::size_t>(place)] * random.between(0.2, 1);
     constexpr std::array<int, 4> kCorners{3, 4, 4, 6};
     const Vec2<double> radii{radius, form == 2 ? 0.1 * radius : radius};
@@ -121,9 +125,9 @@ inline double form_factor(const Polygon& polygon) {
 inline double radiance_by_table(const LtcEntry<float>& entry, const Polygon& light) {
     Polygon transformed;
     for (const Vec3d& vertex : clip_to_horizon(light))
-        transformed.push_back({entry.m00 * vertex.x + entry.m02 * vertex.z, vertex.y,
-                               entry.m20 * vertex.x + entry.m22 * vertex.z});
-    return entry.norm * form_factor(clip_to_horizon(transformed));
+        transformed.push_back(
+            {entry.m00 * vertex.x + entry.m02 * vertex.z, vertex.y, entry.m22 * vertex.z});
+    return entry.norm * form_factor(transformed);
 }
 
 inline bool is_inside(const Vec3d& direction, const std::vector<Vec3d>& edge_planes) {
@@ -137,21 +141,22 @@ inline bool is_inside(const Vec3d& direction, const std::vector<Vec3d>& edge_pla
     return all_positive || all_negative;
 }
 
-inline double radiance_by_cubature(const LightCase& light_case, int resolution) {
+// The glossy radiance at F = 1, and its part with Schlick's (1 - v.h)^5.
+inline Albedo radiance_by_cubature(const LightCase& light_case, int resolution) {
     std::vector<Vec3d> edge_planes;
-    Vec3d centre{0, 0, 0};
     const Polygon& light = light_case.light;
-    for (std::size_t i = 0; i < light.size(); ++i) {
+    for (std::size_t i = 0; i < light.size(); ++i)
         edge_planes.push_back(cross(light[i], light[(i + 1) % light.size()]));
-        centre += light[i];
-    }
-    double sum = 0;
+    Vec3d plane = cross(light[1] - light[0], light[2] - light[0]);
+    if (dot(plane, light[0]) < 0) plane = -plane;
+    Albedo sum{0, 0};
     for (const LobePoint& point : lobe_points(light_case.lobe, resolution)) {
         for (const double side : {-1.0, 1.0}) {
             const Vec3d direction{point.direction.x, side * point.direction.y, point.direction.z};
-            // A cone and its mirror image have the same planes.
-            if (dot(direction, centre) > 0 && is_inside(direction, edge_planes))
-                sum += 0.5 * point.value * point.solid_angle;
+            // A cone and its mirror image have the same edges.
+            if (dot(direction, plane) <= 0 || !is_inside(direction, edge_planes)) continue;
+            sum.norm += 0.5 * point.value * point.solid_angle;
+            sum.fresnel += 0.5 * point.value * point.solid_angle * point.fresnel_weight;
         }
     }
     return sum;
