@@ -35,6 +35,7 @@ std::span<const EmbeddedFile> embedded_files() {
 }
 }
 ")
-    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${ARGN}")
+    # By itself: what is compiled together with others loses what it depends on.
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${ARGN}" SKIP_UNITY_BUILD_INCLUSION ON)
     target_sources(${target} PRIVATE ${source})
 endfunction()

@@ -14,72 +14,8 @@ namespace {
 alignas(64) constexpr int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                            -1, -1, -1, -1, -1, -1, -1, -1};
 
-// The two versions say the same in different words.
-#if RTC_VERSION_MAJOR >= 4
-struct OccludeContext {
-    RTCOccludedArguments arguments;
-    OccludeContext() {
-        rtcInitOccludedArguments(&arguments);
-        arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
-    }
-};
-struct IntersectContext {
-    RTCIntersectArguments arguments;
-    IntersectContext() {
-        rtcInitIntersectArguments(&arguments);
-        arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    }
-};
-void trace(RTCScene s, OccludeContext& c, RTCRay& r) {
-    rtcOccluded1(s, &r, &c.arguments);
-}
-void trace(RTCScene s, OccludeContext& c, RTCRay8& r) {
-    rtcOccluded8(kAllValid, s, &r, &c.arguments);
-}
-void trace(RTCScene s, OccludeContext& c, RTCRay16& r) {
-    rtcOccluded16(kAllValid, s, &r, &c.arguments);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit& r) {
-    rtcIntersect1(s, &r, &c.arguments);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit8& r) {
-    rtcIntersect8(kAllValid, s, &r, &c.arguments);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit16& r) {
-    rtcIntersect16(kAllValid, s, &r, &c.arguments);
-}
-#else
-struct OccludeContext : RTCIntersectContext {
-    OccludeContext() {
-        rtcInitIntersectContext(this);
-        flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    }
-};
-struct IntersectContext : RTCIntersectContext {
-    IntersectContext() {
-        rtcInitIntersectContext(this);
-        flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    }
-};
-void trace(RTCScene s, OccludeContext& c, RTCRay& r) {
-    rtcOccluded1(s, &c, &r);
-}
-void trace(RTCScene s, OccludeContext& c, RTCRay8& r) {
-    rtcOccluded8(kAllValid, s, &c, &r);
-}
-void trace(RTCScene s, OccludeContext& c, RTCRay16& r) {
-    rtcOccluded16(kAllValid, s, &c, &r);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit& r) {
-    rtcIntersect1(s, &c, &r);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit8& r) {
-    rtcIntersect8(kAllValid, s, &c, &r);
-}
-void trace(RTCScene s, IntersectContext& c, RTCRayHit16& r) {
-    rtcIntersect16(kAllValid, s, &c, &r);
-}
-#endif
+using Query = embree::Query;
+using embree::Order;
 
 template <class Packet>
 void load(const RayBatch& b, std::size_t first, std::size_t lanes, Packet& p) {
@@ -118,29 +54,28 @@ bool is_blocked(float far_limit) {
 
 template <class Packet>
 int occlude_packets(RTCScene scene, const RayBatch& b, std::size_t lanes) {
-    OccludeContext context;
+    Query query(Order::kIncoherent);
     int blocked = 0;
     for (std::size_t first = 0; first < b.far_limit.size(); first += lanes) {
         alignas(64) Packet packet;
         load(b, first, lanes, packet);
-        trace(scene, context, packet);
+        embree::occlude(scene, query, kAllValid, packet);
         blocked += static_cast<int>(std::count_if(packet.tfar, packet.tfar + lanes, is_blocked));
     }
     return blocked - (b.size() - b.count);
 }
 
 int occlude_singles(RTCScene scene, const RayBatch& b) {
-    OccludeContext context;
+    Query query(Order::kIncoherent);
     int blocked = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) {
         RTCRay ray = single(b, i);
-        trace(scene, context, ray);
+        embree::occlude(scene, query, ray);
         blocked += is_blocked(ray.tfar);
     }
     return blocked;
 }
 
-#if RTC_VERSION_MAJOR < 4
 void resize(std::size_t count, RayCallScratch& s) {
     if (s.near_limit.size() >= count) return;
     s.near_limit.assign(count, 0.0f);
@@ -148,39 +83,32 @@ void resize(std::size_t count, RayCallScratch& s) {
 }
 
 int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch& s) {
-    OccludeContext context;
+    Query query(Order::kIncoherent);
     resize(b.far_limit.size(), s);
     std::copy(b.far_limit.begin(), b.far_limit.end(), s.far_limit.begin());
     // Embree writes to none but the far limits.
     const auto pointer = [](const std::vector<float>& v) { return const_cast<float*>(v.data()); };
-    RTCRayNp rays{.org_x = pointer(b.origin_x),
-                  .org_y = pointer(b.origin_y),
-                  .org_z = pointer(b.origin_z),
-                  .tnear = s.near_limit.data(),
-                  .dir_x = pointer(b.direction_x),
-                  .dir_y = pointer(b.direction_y),
-                  .dir_z = pointer(b.direction_z),
-                  .tfar = s.far_limit.data()};
-    rtcOccludedNp(scene, &context, &rays, static_cast<unsigned>(b.count));
+    embree::occlude(
+        scene, query,
+        {.origin = {pointer(b.origin_x), pointer(b.origin_y), pointer(b.origin_z)},
+         .direction = {pointer(b.direction_x), pointer(b.direction_y), pointer(b.direction_z)},
+         .near_limit = s.near_limit.data(),
+         .far_limit = s.far_limit.data(),
+         .count = b.count});
     return static_cast<int>(
         std::count_if(s.far_limit.begin(), s.far_limit.begin() + b.count, is_blocked));
 }
-#else
-int occlude_stream(RTCScene scene, const RayBatch& b, RayCallScratch&) {
-    return occlude_packets<RTCRay16>(scene, b, 16);
-}
-#endif
 
 template <class Packet>
 int intersect_packets(RTCScene scene, const RayBatch& b, std::size_t lanes) {
-    IntersectContext context;
+    Query query(Order::kCoherent);
     int hits = 0;
     for (std::size_t first = 0; first < b.far_limit.size(); first += lanes) {
         alignas(64) Packet packet;
         load(b, first, lanes, packet.ray);
         std::fill_n(packet.hit.geomID, lanes, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(packet.hit.instID[0], lanes, RTC_INVALID_GEOMETRY_ID);
-        trace(scene, context, packet);
+        embree::intersect(scene, query, kAllValid, packet);
         hits += static_cast<int>(
             lanes - static_cast<std::size_t>(std::count(
                         packet.hit.geomID, packet.hit.geomID + lanes, RTC_INVALID_GEOMETRY_ID)));
@@ -189,13 +117,13 @@ int intersect_packets(RTCScene scene, const RayBatch& b, std::size_t lanes) {
 }
 
 int intersect_singles(RTCScene scene, const RayBatch& b) {
-    IntersectContext context;
+    Query query(Order::kCoherent);
     int hits = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i) {
         RTCRayHit ray{};
         ray.ray = single(b, i);
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        trace(scene, context, ray);
+        embree::intersect(scene, query, ray);
         hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     }
     return hits;
@@ -219,9 +147,7 @@ const char* name(RayCall call) {
 
 std::vector<RayCall> occlude_calls() {
     std::vector<RayCall> calls = {RayCall::kSingle, RayCall::kPacket8, RayCall::kPacket16};
-#if RTC_VERSION_MAJOR < 4
-    calls.push_back(RayCall::kStream);
-#endif
+    if (embree::kHasStreams) calls.push_back(RayCall::kStream);
     return calls;
 }
 

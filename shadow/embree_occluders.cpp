@@ -31,52 +31,10 @@ void set_transform(RTCGeometry geometry, const Affine3f& world_from_object) {
 }
 static_assert(sizeof(Affine3f) == 12 * sizeof(float), "four columns of three floats");
 
-#if RTC_VERSION_MAJOR >= 4
-
-// Without streams: packets of 16, of which the last one is filled up with masked rays.
 void occlude_by(RTCScene scene, const RayStream& rays) {
-    constexpr int kPacket = 16;
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
-    for (int first = 0; first < rays.count; first += kPacket) {
-        RTCRay16 packet{};
-        alignas(64) int valid[kPacket];
-        for (int i = 0; i < kPacket; ++i) valid[i] = first + i < rays.count ? -1 : 0;
-        std::copy_n(rays.origin[0] + first, kPacket, packet.org_x);
-        std::copy_n(rays.origin[1] + first, kPacket, packet.org_y);
-        std::copy_n(rays.origin[2] + first, kPacket, packet.org_z);
-        std::copy_n(rays.direction[0] + first, kPacket, packet.dir_x);
-        std::copy_n(rays.direction[1] + first, kPacket, packet.dir_y);
-        std::copy_n(rays.direction[2] + first, kPacket, packet.dir_z);
-        std::copy_n(rays.near_limit + first, kPacket, packet.tnear);
-        std::copy_n(rays.far_limit + first, kPacket, packet.tfar);
-        std::fill_n(packet.mask, kPacket, 0xFFFFFFFFu);
-        rtcOccluded16(valid, scene, &packet, &arguments);
-        std::copy_n(packet.tfar, kPacket, rays.far_limit + first);
-    }
+    embree::Query query(embree::Order::kIncoherent);
+    embree::occlude(scene, query, rays);
 }
-
-#else
-
-// As one stream: fewer calls than packets, and Embree gathers what its own width needs.
-void occlude_by(RTCScene scene, const RayStream& rays) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRayNp stream{};
-    stream.org_x = rays.origin[0];
-    stream.org_y = rays.origin[1];
-    stream.org_z = rays.origin[2];
-    stream.dir_x = rays.direction[0];
-    stream.dir_y = rays.direction[1];
-    stream.dir_z = rays.direction[2];
-    stream.tnear = rays.near_limit;
-    stream.tfar = rays.far_limit;
-    rtcOccludedNp(scene, &context, &stream, static_cast<unsigned>(rays.count));
-}
-
-#endif
 
 // Trees refer to the triangles and opacity maps that they were split into.
 struct Tree {

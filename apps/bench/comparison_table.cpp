@@ -1,17 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
+#include "apps/bench/append.h"
 #include "apps/bench/comparison.h"
 
 namespace penumbra::bench {
 namespace {
-
-template <class... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 std::string percent(double change) {
     return std::isfinite(change) ? fmt::format("{:+.1f} %", 100 * change) : "?";

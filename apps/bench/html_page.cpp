@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <span>
 
+#include "apps/bench/append.h"
 #include "apps/bench/charts.h"
 #include "apps/bench/table.h"
 #include "apps/bench/undisturbed.h"
@@ -20,11 +20,6 @@ namespace penumbra::bench {
 namespace {
 
 using diff::html_escaped;
-
-template <class... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 std::string threads_in_words(int threads) {
     return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");

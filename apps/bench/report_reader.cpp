@@ -27,12 +27,12 @@ std::uint64_t count_of(const Node& node) {
 }
 
 // Shorter ones are no times, and ratios of such are no numbers.
-constexpr double kLeastMilliseconds = 1e-9;
+constexpr double kLeastTime = 1e-9;
 
 double milliseconds(const Node& node) {
     const double value = node.number(kMilliseconds);
-    if (value > 0 && value < kLeastMilliseconds)
-        node.expected(fmt::format("0 or at least {} milliseconds", kLeastMilliseconds));
+    if (value > 0 && value < kLeastTime)
+        node.expected(fmt::format("0 or at least {} milliseconds", kLeastTime));
     return value;
 }
 

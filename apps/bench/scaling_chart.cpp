@@ -9,7 +9,7 @@
 namespace penumbra::bench {
 namespace {
 
-constexpr double kWidth = 430;
+constexpr double kChartWidth = 430;
 constexpr double kHeight = 300;
 constexpr double kLeft = 44, kRight = 92, kTop = 34, kBottom = 40;
 constexpr double kLeastLabelDistance = 12;
@@ -25,7 +25,7 @@ struct Scaling {
 class Chart {
   public:
     Chart(const SceneResult& scene, const Scaling& scaling)
-        : scene_(scene), scaling_(scaling), svg_(kWidth, kHeight, scaling.title) {
+        : scene_(scene), scaling_(scaling), svg_(kChartWidth, kHeight, scaling.title) {
         for (const ThreadRun& run : scene.runs) {
             fewest_ = fewest_ == 0 ? run.threads : std::min<double>(fewest_, run.threads);
             most_ = std::max<double>(most_, run.threads);
@@ -56,7 +56,7 @@ class Chart {
     [[nodiscard]] Svg::Point place(double threads, double value) const {
         const double along = (threads - fewest_) / std::max(most_ - fewest_, 1e-9);
         const double up = std::clamp(value / scaling_.most, 0.0, 1.0);
-        return {kLeft + along * (kWidth - kLeft - kRight),
+        return {kLeft + along * (kChartWidth - kLeft - kRight),
                 kHeight - kBottom - up * (kHeight - kTop - kBottom)};
     }
 
@@ -73,7 +73,7 @@ class Chart {
             svg_.text({bottom.first, bottom.second + 16}, "middle", fmt::format("{}", run.threads),
                       "tick");
         }
-        svg_.text({(kLeft + kWidth - kRight) / 2, kHeight - 6}, "middle", "threads", "tick");
+        svg_.text({(kLeft + kChartWidth - kRight) / 2, kHeight - 6}, "middle", "threads", "tick");
         svg_.text({kLeft - 30, 14}, "start", scaling_.title, "title");
     }
 
@@ -105,7 +105,8 @@ class Chart {
             double y = std::min(labels_[i].y, lowest - kLeastLabelDistance * left);
             y = std::max(y, above + kLeastLabelDistance);
             above = y;
-            svg_.text({kWidth - kRight + 8, y + 4}, "start", labels_[i].words, labels_[i].style);
+            svg_.text({kChartWidth - kRight + 8, y + 4}, "start", labels_[i].words,
+                      labels_[i].style);
         }
     }
 

@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
+#include "apps/bench/append.h"
 #include "apps/diff/html_parts.h"
 
 namespace penumbra::bench {
 namespace {
-
-template <class... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 std::string tip_element(std::string_view tip) {
     return tip.empty() ? "" : fmt::format("<title>{}</title>", diff::html_escaped(tip));

@@ -5,15 +5,11 @@
 #include <iterator>
 #include <vector>
 
+#include "apps/bench/append.h"
 #include "apps/bench/undisturbed.h"
 
 namespace penumbra::bench {
 namespace {
-
-template <class... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 // Three digits that matter: "0.123", "1.23", "123".
 std::string short_number(double value) {

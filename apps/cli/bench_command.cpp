@@ -25,7 +25,7 @@
 namespace penumbra::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kBenchFooter =
     "The columns are explained in docs/bench.md.\n\n"
     "Examples:\n"
     "  penumbra bench\n"
@@ -136,7 +136,7 @@ std::shared_ptr<BenchOptions> add_bench_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("bench", "Measure the passes of frames against the machine's limits");
     declare_options(*command, *options);
-    command->footer(kFooter);
+    command->footer(kBenchFooter);
     command->callback([options, command, &exit_code] {
         refuse_empty_values(*command);
         refuse_unheard(*command, *options);

@@ -20,7 +20,7 @@ constexpr const char* kWhatGroup = "What is measured";
 constexpr const char* kHowGroup = "How often, and on how many threads";
 constexpr const char* kRunningGroup = "Running";
 
-renderer::Choice<std::optional<simd::Isa>> isa() {
+renderer::Choice<std::optional<simd::Isa>> bench_isa() {
     return isa_setting("Instruction set of everything but the ray tracer");
 }
 
@@ -128,7 +128,7 @@ void declare_output(CLI::App& command, BenchOptions& o) {
 
 void declare_execution(CLI::App& command, BenchOptions& o) {
     command.option_defaults()->group(kRunningGroup);
-    SettingDeclarer(command, o.texts)(isa(), o.execution.isa);
+    SettingDeclarer(command, o.texts)(bench_isa(), o.execution.isa);
     declare_setting(command, o, "trace-isa",
                     "Instruction set of the ray tracer, in the frames and in their limits");
 }
@@ -164,7 +164,7 @@ bench::BenchSettings interpret(const BenchOptions& options) {
     BenchOptions o = options;
     const SettingReader read(o.texts);
     each_setting_of(o, read);
-    read(isa(), o.execution.isa);
+    read(bench_isa(), o.execution.isa);
     bench::BenchSettings settings{.scenes = o.scenes,
                                   .frame = o.frame,
                                   .image = o.image,

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using check::CheckOutcome;
 using check::Verdict;
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "Beside the scene NAME.json lie NAME.golden.exr, what it has to look like "
     "(NAME.golden.0012.exr\n"
     "for each of several frames), and NAME.check.json, how it is rendered and how much may "
@@ -191,7 +191,7 @@ std::shared_ptr<CheckOptions> add_check_command(CLI::App& app, const std::string
     CLI::App* command =
         app.add_subcommand("check", "Render scenes and compare them with their golden images");
     declare_options(*command, *options);
-    command->footer(kFooter);
+    command->footer(kCheckFooter);
     command->callback([options, command, program, &exit_code] {
         refuse_empty_values(*command);
         exit_code = run(*options, program);

@@ -66,7 +66,7 @@ std::string value_name(const std::string& type, ValueKind kind) {
     return kind == ValueKind::kWord ? "NAME" : kind == ValueKind::kWords ? "LIST" : "NAME=VALUE";
 }
 
-OptionEntry describe(const CLI::Option& option) {
+OptionEntry describe_option(const CLI::Option& option) {
     OptionEntry entry;
     if (option.nonpositional()) {
         for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
@@ -143,7 +143,8 @@ CommandEntry describe(const CLI::App& app) {
     entry.footer = app.get_footer();
     for (const CLI::Option* option : app.get_options()) {
         if (option->get_group().empty()) continue;  // hidden
-        (option->nonpositional() ? entry.options : entry.positionals).push_back(describe(*option));
+        (option->nonpositional() ? entry.options : entry.positionals)
+            .push_back(describe_option(*option));
     }
     for (const CLI::App* command : app.get_subcommands({}))
         if (!command->get_name().empty() && !command->get_group().empty())

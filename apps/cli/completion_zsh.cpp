@@ -26,7 +26,7 @@ std::string files_of(const std::vector<std::string>& endings) {
     return fmt::format("_files -g \"*.(#i)({})\"", fmt::join(endings, "|"));
 }
 
-std::string action_of(const OptionEntry& option) {
+std::string zsh_action(const OptionEntry& option) {
     switch (option.kind) {
         case ValueKind::kWord:
             return fmt::format("({})", fmt::join(option.words, " "));
@@ -45,8 +45,8 @@ std::string action_of(const OptionEntry& option) {
     return " ";
 }
 
-std::string value_of(const OptionEntry& option) {
-    return fmt::format(":{}:{}", escaped(option.value, ":"), escaped(action_of(option), ":"));
+std::string zsh_value(const OptionEntry& option) {
+    return fmt::format(":{}:{}", escaped(option.value, ":"), escaped(zsh_action(option), ":"));
 }
 
 // An option that is not repeatable is offered once: its names exclude each other and themselves.
@@ -59,7 +59,7 @@ std::string option_lines(const OptionEntry& option) {
         const char* const attach = !has_value ? "" : name.starts_with("--") ? "=" : "+";
         lines +=
             fmt::format("        '{}{}{}[{}]{}' \\\n", before, name, attach,
-                        escaped(option.explanation(), "[]"), has_value ? value_of(option) : "");
+                        escaped(option.explanation(), "[]"), has_value ? zsh_value(option) : "");
     }
     return lines;
 }
@@ -67,7 +67,7 @@ std::string option_lines(const OptionEntry& option) {
 std::string positional_line(const OptionEntry& positional) {
     const char* const count = positional.repeats ? "*" : positional.is_required ? "" : ":";
     return fmt::format("        '{}:{}:{}' \\\n", count, escaped(positional.names.front(), ":"),
-                       escaped(action_of(positional), ":"));
+                       escaped(zsh_action(positional), ":"));
 }
 
 std::string function_name(const std::string& path) {

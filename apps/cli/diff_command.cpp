@@ -19,7 +19,7 @@
 namespace penumbra::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDiffFooter =
     "Exit codes: 0 the same or within the limits, 1 different, 2 a missing file, no image or "
     "wrong\n"
     "options, 3 output failed. NaN, incomplete files, other sizes, channels or types always "
@@ -161,7 +161,7 @@ std::shared_ptr<DiffOptions> add_diff_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("diff", "Compare images and fail where they differ too much");
     declare_options(*command, *options);
-    command->footer(kFooter);
+    command->footer(kDiffFooter);
     command->callback([options, command, &exit_code] {
         refuse_empty_values(*command);
         exit_code = run_diff(*options);

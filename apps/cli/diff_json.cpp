@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json number(double value) {
+ordered_json number_or_null(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
@@ -34,7 +34,7 @@ ordered_json layer_entry(const diff::LayerReport& layer) {
                                      {"differing_pixels", channel.differing}});
     for (const diff::MetricInfo& metric : diff::metric_table())
         if (const auto& value = layer.metrics[metric.metric])
-            entry["metrics"][std::string(metric.name)] = number(*value);
+            entry["metrics"][std::string(metric.name)] = number_or_null(*value);
     for (const diff::Block& block : layer.worst)
         entry["worst_tiles"].push_back({{"x", block.x},
                                         {"y", block.y},

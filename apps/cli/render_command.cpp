@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kSomeFramesFailed = 3;
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     "Examples:\n"
     "  penumbra render shot.json -o out/shot.####.exr -f 1-240 --resume\n"
     "  penumbra render dwarf.obj -o dwarf.exr --preview dwarf.png --aa 8\n"
@@ -119,7 +119,7 @@ std::shared_ptr<RenderOptions> add_render_command(CLI::App& app, int& exit_code)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "Render frames to EXR");
     declare_options(*command, *options);
-    command->footer(kFooter);
+    command->footer(kRenderFooter);
     command->callback([options, command, &exit_code] {
         refuse_empty_values(*command);
         exit_code = render(*options);

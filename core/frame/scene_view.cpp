@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/math/portable.h"
+#include "core/math/widen.h"
 #include "core/parallel/arena.h"
 #include "core/scene/camera_check.h"
 #include "core/scene/light_polygon.h"
@@ -20,13 +21,6 @@ constexpr float kLargestCoordinate = 1e9f;
 // far below what one sees, far above the rounding of positions.
 constexpr double kNearPerDiagonal = 1e-4;
 constexpr double kNearPerTargetDistance = 1e-2;
-
-Vec3d widen(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
-Vec3f narrow(const Vec3d& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 // Plain products and sums: what is not in a kernel has no fused multiply-add without a call.
 struct Transform {
@@ -79,9 +73,9 @@ void grow(Vec3f& low, Vec3f& high, const Vec3f& p) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
 }
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr Vec3f kEmptyLow{kInfinity, kInfinity, kInfinity};
-constexpr Vec3f kEmptyHigh{-kInfinity, -kInfinity, -kInfinity};
+constexpr float kBeyondAll = std::numeric_limits<float>::infinity();
+constexpr Vec3f kEmptyLow{kBeyondAll, kBeyondAll, kBeyondAll};
+constexpr Vec3f kEmptyHigh{-kBeyondAll, -kBeyondAll, -kBeyondAll};
 
 void place_mesh(const Mesh& mesh, const Transform& transform, Instance& instance) {
     const Transform normals = normal_transform(transform);

@@ -26,9 +26,9 @@ bool is_parsed(const ExrAttribute& attribute) {
 // The file's bytes for OpenEXR, read where they are needed. All other attributes get a type that
 // OpenEXR does not know and takes as bytes: no preview, string list or manifest of a damaged file
 // is ever interpreted.
-class FileStream : public Imf::IStream {
+class InputStream : public Imf::IStream {
   public:
-    FileStream(const FileReader& file, const ExrStructure& structure)
+    InputStream(const FileReader& file, const ExrStructure& structure)
         : IStream(file.path().c_str()), file_(file) {
         for (const ExrPart& part : structure.parts)
             for (const ExrAttribute& attribute : part.attributes)
@@ -88,7 +88,7 @@ struct ExrBlocks::Implementation {
     // OpenEXR meets the file only when pixels are asked for.
     Imf::InputPart& open(int part) {
         if (!input) {
-            stream = std::make_unique<FileStream>(file, structure);
+            stream = std::make_unique<InputStream>(file, structure);
             input = std::make_unique<Imf::MultiPartInputFile>(*stream, 0, false);
             opened.resize(parts.size());
         }
@@ -112,7 +112,7 @@ struct ExrBlocks::Implementation {
     FileReader file;
     ExrStructure structure;
     std::vector<ExrPartInfo> parts;
-    std::unique_ptr<FileStream> stream;
+    std::unique_ptr<InputStream> stream;
     std::unique_ptr<Imf::MultiPartInputFile> input;
     std::vector<std::unique_ptr<Imf::InputPart>> opened;
 };

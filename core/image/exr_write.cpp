@@ -34,14 +34,14 @@ constexpr int kZipLevel = 1;
 
 // A file that remembers its first failure: OpenEXR writes its table of offsets in a destructor,
 // where it swallows exceptions.
-class FileStream : public Imf::OStream {
+class OutputStream : public Imf::OStream {
   public:
-    explicit FileStream(const std::filesystem::path& file) : OStream(file.c_str()), path_(file) {
+    explicit OutputStream(const std::filesystem::path& file) : OStream(file.c_str()), path_(file) {
         descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor_ < 0) fail();
         buffer_.reserve(kBufferBytes);
     }
-    ~FileStream() override {
+    ~OutputStream() override {
         if (descriptor_ >= 0) ::close(descriptor_);
     }
     void write(const char bytes[], int count) override {
@@ -267,7 +267,7 @@ ExrWriteReport write_exr(const std::filesystem::path& file, const ExrImage& imag
     check_promises(image);
     const DefaultFloatingPoint floating_point;
     grow_thread_pool(threads);
-    FileStream stream(file);
+    OutputStream stream(file);
     BandWriter bands(image, threads);
     try {
         Imf::OutputFile output(stream, make_header(image), threads > 1 ? threads : 0);

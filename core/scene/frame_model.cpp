@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/math/portable.h"
+#include "core/math/widen.h"
 
 namespace penumbra {
 namespace {
@@ -38,13 +39,6 @@ struct Box {
         return result;
     }
 };
-
-Vec3d widen(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
-Vec3f narrow(const Vec3d& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 Box bounds_of(const Scene& scene) {
     Box world;

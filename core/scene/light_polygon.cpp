@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/math/portable.h"
+#include "core/math/widen.h"
 
 namespace penumbra {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 constexpr double kPlanarTolerance = 1e-4;
 // Below this ratio of area to squared extent a polygon is a line.
 constexpr double kSmallestAspect = 1e-9;
-
-Vec3d widen(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
 
 double extent_of(std::span<const Vec3d> vertices) {
     double extent = 0;

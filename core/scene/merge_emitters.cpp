@@ -16,7 +16,7 @@ using Index = std::uint32_t;
 using Loop = std::vector<Index>;  // vertices around a polygon, those on straight edges included
 
 // Off the common plane by at most this, in units of the polygon's extent.
-constexpr double kPlanarTolerance = 1e-5;
+constexpr double kMergeTolerance = 1e-5;
 // A corner that turns by less, in radians, is on a straight edge.
 constexpr double kStraightTolerance = 1e-5;
 // Merging pair by pair stops at polygons of this many vertices: its cost is their square.
@@ -94,7 +94,7 @@ class Merger {
         }
         // What the rounding of the coordinates to float may add.
         const double rounding = magnitude * 0x1p-23;
-        return distance <= kPlanarTolerance * extent + rounding &&
+        return distance <= kMergeTolerance * extent + rounding &&
                dot(newell_normal(points), normal) > 0;
     }
 

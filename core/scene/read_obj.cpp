@@ -19,7 +19,7 @@ namespace {
 using Index = std::uint32_t;
 
 // Squares of larger coordinates leave the range of float.
-constexpr float kLargestCoordinate = 1e15f;
+constexpr float kLargestNumber = 1e15f;
 
 struct Corner {
     Index position, uv, normal;
@@ -74,8 +74,8 @@ class ObjBuilder {
     PolygonSoup& soup() { return result_.soup; }
 
     void check_number(float x) const {
-        if (!(std::fabs(x) <= kLargestCoordinate))
-            lines_.fail(fmt::format("the number {:g} is beyond {:g}", x, kLargestCoordinate));
+        if (!(std::fabs(x) <= kLargestNumber))
+            lines_.fail(fmt::format("the number {:g} is beyond {:g}", x, kLargestNumber));
     }
     void check_count(std::size_t count) const {
         if (count > std::size_t{std::numeric_limits<std::int32_t>::max()})

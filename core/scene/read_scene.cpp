@@ -84,10 +84,10 @@ void read_camera(const json::Node& document, Scene& scene) {
         return;
     }
     const KeyedNode keyed(*node, {"eye", "target", "up", "vfov"}, {"near"});
-    constexpr json::Range kPosition{-1e9, 1e9};
-    scene.camera = {.eye = keyed.vectors("eye", kPosition, std::nullopt),
-                    .target = keyed.vectors("target", kPosition, std::nullopt),
-                    .up = keyed.vectors("up", kPosition, Vec3f{0, 1, 0}),
+    constexpr json::Range kCameraPosition{-1e9, 1e9};
+    scene.camera = {.eye = keyed.vectors("eye", kCameraPosition, std::nullopt),
+                    .target = keyed.vectors("target", kCameraPosition, std::nullopt),
+                    .up = keyed.vectors("up", kCameraPosition, Vec3f{0, 1, 0}),
                     .vertical_field_of_view = keyed.numbers("vfov", {0.01, 179}, 45.0f),
                     .near_distance = std::nullopt};
     if (const auto near = node->find("near"))

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/math/portable.h"
+#include "core/math/widen.h"
 #include "core/scene/polygon_soup.h"
 
 namespace penumbra {
@@ -12,9 +13,6 @@ namespace {
 
 using Index = std::uint32_t;
 
-Vec3d widen(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
 Vec3d minus(const Vec3f& a, const Vec3f& b) {
     return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z};
 }

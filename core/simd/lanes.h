@@ -27,6 +27,13 @@ struct Avx512 {
     static constexpr int kLanes = 16;
 };
 
+// The same bits as another batch. xsimd's own is told the batch in version 8 and its elements
+// in 13.
+template <class To, class From>
+To bits_as(From from) {
+    return std::bit_cast<To>(from);
+}
+
 // One truth value per lane, shared by Float and Integer.
 template <class Isa>
 struct Mask {
@@ -56,7 +63,7 @@ struct Integer {
     Integer(Batch b) : v(b) {}
     template <class U>
     requires(!std::is_same_v<U, T>) explicit Integer(Integer<Isa, U> other)
-        : v(xsimd::bitwise_cast<Batch>(other.v)) {}
+        : v(bits_as<Batch>(other.v)) {}
 
     friend Integer operator+(Integer a, Integer b) { return a.v + b.v; }
     friend Integer operator-(Integer a, Integer b) { return a.v - b.v; }
@@ -266,8 +273,8 @@ template <class Isa, class T>
 Integer<Isa, T> select(Mask<Isa> m, Integer<Isa, T> a, std::type_identity_t<Integer<Isa, T>> b) {
     // Through float lanes: xsimd 8.1's integer select does not compile without optimisation.
     using Real = typename Float<Isa>::Batch;
-    return xsimd::bitwise_cast<typename Integer<Isa, T>::Batch>(
-        xsimd::select(m.bits, xsimd::bitwise_cast<Real>(a.v), xsimd::bitwise_cast<Real>(b.v)));
+    return bits_as<typename Integer<Isa, T>::Batch>(
+        xsimd::select(m.bits, bits_as<Real>(a.v), bits_as<Real>(b.v)));
 }
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -328,15 +335,15 @@ Float<Isa> to_float(Integer<Isa, std::int32_t> a) {
 }
 template <class Isa>
 Integer<Isa, std::int32_t> as_int(Float<Isa> a) {
-    return xsimd::bitwise_cast<typename Integer<Isa, std::int32_t>::Batch>(a.v);
+    return bits_as<typename Integer<Isa, std::int32_t>::Batch>(a.v);
 }
 template <class Isa>
 Integer<Isa, std::uint32_t> as_uint(Float<Isa> a) {
-    return xsimd::bitwise_cast<typename Integer<Isa, std::uint32_t>::Batch>(a.v);
+    return bits_as<typename Integer<Isa, std::uint32_t>::Batch>(a.v);
 }
 template <class Isa, class T>
 Float<Isa> as_float(Integer<Isa, T> a) {
-    return xsimd::bitwise_cast<typename Float<Isa>::Batch>(a.v);
+    return bits_as<typename Float<Isa>::Batch>(a.v);
 }
 
 // ---- memory: V is any lane type of this file, float or integer --------------------------------

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include "apps/bench/comparison.h"
 #include "core/error.h"
@@ -91,7 +92,7 @@ Report report(const Scenario& scenario, Noise& noise) {
     return result;
 }
 
-const PassComparison& find(const Comparison& comparison, const std::string& pass) {
+const PassComparison& find(const Comparison& comparison, std::string_view pass) {
     for (const PassComparison& each : comparison.passes)
         if (each.pass == pass) return each;
     FAIL("no pass " << pass);
@@ -121,7 +122,8 @@ bool has(const std::vector<std::string>& lines, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a pass that got slower by 5 % is found in 9 of 10 comparisons and more") {
+TEST_CASE("a pass that got slower by 5 % is found in 9 of 10 comparisons and more" *
+          doctest::test_suite("statistics")) {
     // 30 of 30: with a confidence of 95 % more than 0.90 of all.
     Noise noise(1);
     int found = 0;

@@ -116,7 +116,8 @@ TEST_CASE("a launch that says nothing of one quantity counts for the others") {
     CHECK(shift_strength({1, 2, 3, kMissing, kMissing, kMissing}, 3) == 0);
 }
 
-TEST_CASE("random labels come near to all of them, and are the same in each call") {
+TEST_CASE("random labels come near to all of them, and are the same in each call" *
+          doctest::test_suite("statistics")) {
     std::mt19937_64 random(13);
     std::vector<Quantity> one = quantities(1, 18, random);  // 48620 ways, of which some are drawn
     for (std::size_t launch = 9; launch < 18; ++launch) one[0][launch] += 1;

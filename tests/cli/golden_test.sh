@@ -2,7 +2,8 @@
 # The project's own golden images. With --reproducible they are matched to the last bit by every processor, vector
 # width and number of threads. Without it Embree's occluded bit may differ for one ray in a million from maker to maker
 # (docs/reproducibility.md): such a ray may be seen, anything more not. After a change that is meant to be seen:
-# penumbra check data/goldens --reproducible --update. Usage: golden_test.sh PENUMBRA
+# penumbra check data/goldens --reproducible --update. Usage: golden_test.sh PENUMBRA [all|widths]   (widths: only
+# once with each vector width)
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 cd "$source_dir" || exit 1
 
@@ -47,6 +48,10 @@ has_checks_for_all_scenes() {
 
 check "the goldens are what is rendered" goldens_pass --reproducible
 check "with 8 lanes and one thread" goldens_pass --reproducible --isa avx2 --threads 1
+if [ "${2:-all}" = widths ]; then
+    finish
+    exit
+fi
 if grep -qw avx512bw /proc/cpuinfo && grep -qw avx512vl /proc/cpuinfo; then
     check "with 16 lanes and seven threads" goldens_pass --reproducible --isa avx512 --threads 7 --jobs 1
 else

@@ -40,7 +40,7 @@ double worst_ulp(const Function& function, const Exact& exact, float low, float 
     return worst;
 }
 
-TEST_CASE("sine and cosine keep their bound up to 2^17") {
+TEST_CASE("sine and cosine keep their bound up to 2^17" * doctest::test_suite("statistics")) {
     const auto sine = [](float x) { return sin(x); };
     const auto cosine = [](float x) { return cos(x); };
     const auto exact_sine = [](double x) { return std::sin(x); };
@@ -84,7 +84,7 @@ TEST_CASE("inverse functions keep their bounds") {
     CHECK(worst <= 2.0);
 }
 
-TEST_CASE("exponentials and logarithms keep their bounds") {
+TEST_CASE("exponentials and logarithms keep their bounds" * doctest::test_suite("statistics")) {
     CHECK(worst_ulp([](float x) { return exp2(x); }, [](double x) { return std::exp2(x); }, -126.0f,
                     127.9999f) <= 1.0);
     CHECK(worst_ulp([](float x) { return exp(x); }, [](double x) { return std::exp(x); }, -87.3365f,

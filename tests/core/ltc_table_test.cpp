@@ -70,7 +70,8 @@ TEST_CASE(
     CHECK(entry_at(0.5, std::nan("")).norm == entry_at(0.5, 0.0).norm);
 }
 
-TEST_CASE("the matrices of the table fit again to what is committed") {
+TEST_CASE("the matrices of the table fit again to what is committed" *
+          doctest::test_suite("statistics")) {
     for (const int row : {0, 9, 30, 55, 63})
         for (const int column : {1, 20, 45, 58}) {
             CAPTURE(row);
@@ -166,7 +167,8 @@ TEST_CASE("neighbouring rows of the table are close to each other") {
     CHECK(along_roughness_to_88_degrees < 0.15);
 }
 
-TEST_CASE("the table is as close to GGX as it must be, seen through the lookup") {
+TEST_CASE("the table is as close to GGX as it must be, seen through the lookup" *
+          doctest::test_suite("statistics")) {
     const ltc_fit::TableErrors errors = ltc_fit::table_errors(kLtcTable, 90, 0.01);
     CHECK(errors.albedo.count == 400);
     CHECK(errors.relative_l1.mean() <= 0.125);

@@ -183,7 +183,8 @@ TEST_CASE("the sampled solid angle is that of the polygon above the horizon, in 
     CHECK(visible > 150);
 }
 
-TEST_CASE("samples lie on the light, above the horizon, and are uniform in the solid angle") {
+TEST_CASE("samples lie on the light, above the horizon, and are uniform in the solid angle" *
+          doctest::test_suite("statistics")) {
     constexpr int kSide = 200;  // stratified: the error of a mean is far below 1 / samples^0.5
     for (const Case& c : all_kinds()) {
         const auto shape =

@@ -48,7 +48,7 @@ TEST_CASE("text that is no JSON is refused with its line and column") {
     const auto error = [&](std::string_view text) { return folder.error_of_json(text); };
     CHECK(error("{\n  \"film\": }")
               .starts_with("shot.json: line 2, column 11: syntax error while parsing value"));
-    CHECK(error("").starts_with("shot.json: line 1, column 1: syntax error while parsing value"));
+    CHECK(error("").starts_with("shot.json: line 1, column 1: "));
     CHECK(error(R"({"film": {"size": [1, NaN]}})").starts_with("shot.json: line 1, column 23: "));
     CHECK(error("{} {}").starts_with("shot.json: line 1, column 4: "));
     CHECK(error(R"({"film": {"size": [1e999, 1]}})").find("number overflow") != std::string::npos);

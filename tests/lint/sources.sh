@@ -76,6 +76,9 @@ door() {
     forbid "$1 stands behind $3" "$include$2" "${files[@]}"
 }
 door Embree 'embree' shadow/
+mapfile -t not_the_door < <(without '^shadow/embree\.h$' "${everything[@]}" tests/**/*.h tests/**/*.cpp)
+forbid "what differs between Embree's versions stands in shadow/embree.h" \
+    "RTC_VERSION|${include}embree|rtc(Occluded|Intersect)[0-9]" "${not_the_door[@]}"
 door oneTBB '(tbb|oneapi)/' core/parallel/
 door OpenEXR '(OpenEXR/|Imath/|Imf|Iex)' core/image/
 door tinyobjloader 'tiny_obj_loader' core/scene/

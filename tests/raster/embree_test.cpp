@@ -1,9 +1,10 @@
 #include <doctest/doctest.h>
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <string>
 
+#include "core/math/widen.h"
+#include "shadow/embree.h"
 #include "tests/raster/scenes.h"
 
 // The rasterizer against rays through the same pixel centres. Where the two name different
@@ -50,9 +51,8 @@ class RayTracer {
         ray.ray.tfar = 1e30f;
         ray.ray.mask = 0xFFFFFFFFu;
         ray.hit.geomID = ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &ray);
+        embree::Query query(embree::Order::kIncoherent);
+        embree::intersect(scene_, query, ray);
         return {ray.hit.geomID, ray.hit.primID, ray.ray.tfar};
     }
 
@@ -79,10 +79,6 @@ class RayTracer {
     RTCScene scene_ = rtcNewScene(device_);
 };
 
-Vec3d to_double(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
-
 struct Corners {
     Vec3d view[3];
 };
@@ -91,10 +87,9 @@ Corners corners(const SceneView& scene, std::uint32_t instance, std::uint32_t tr
     Corners result;
     for (int k = 0; k < 3; ++k) {
         const Triangle& t = scene.instances[instance].mesh->triangles[triangle];
-        const Vec3d d =
-            to_double(scene.instances[instance].positions[t.vertex[k]]) - to_double(camera.eye);
-        result.view[k] = {dot(d, to_double(camera.right)), dot(d, to_double(camera.up)),
-                          dot(d, to_double(camera.forward))};
+        const Vec3d d = widen(scene.instances[instance].positions[t.vertex[k]]) - widen(camera.eye);
+        result.view[k] = {dot(d, widen(camera.right)), dot(d, widen(camera.up)),
+                          dot(d, widen(camera.forward))};
     }
     return result;
 }
@@ -178,9 +173,8 @@ Comparison compare(TestScene& scene) {
             result.wrong_depth += std::abs(ours.distance - expected) > tolerance;
             const Vec3f g = frame.at(frame.geometric_normal, x, y);
             const Camera& camera = scene.view.camera;
-            const Vec3d in_view{dot(to_double(g), to_double(camera.right)),
-                                dot(to_double(g), to_double(camera.up)),
-                                dot(to_double(g), to_double(camera.forward))};
+            const Vec3d in_view{dot(widen(g), widen(camera.right)), dot(widen(g), widen(camera.up)),
+                                dot(widen(g), widen(camera.forward))};
             result.wrong_normal += length(cross(in_view, n)) > 1e-4;
         }
     return result;

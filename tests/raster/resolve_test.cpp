@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "core/bsdf/ggx.h"
+#include "core/math/widen.h"
 #include "tests/raster/scenes.h"
 
 using namespace penumbra;
@@ -9,16 +10,12 @@ using namespace penumbra::raster::testing;
 
 namespace {
 
-Vec3d to_double(const Vec3f& v) {
-    return {v.x, v.y, v.z};
-}
-
 // The pixel a world point falls on.
 Vec2<double> pixel_of(const Camera& camera, const Vec3d& world) {
-    const Vec3d d = world - to_double(camera.eye);
-    const double z = dot(d, to_double(camera.forward));
-    return {camera.center_x + camera.focal * dot(d, to_double(camera.right)) / z,
-            camera.center_y - camera.focal * dot(d, to_double(camera.up)) / z};
+    const Vec3d d = world - widen(camera.eye);
+    const double z = dot(d, widen(camera.forward));
+    return {camera.center_x + camera.focal * dot(d, widen(camera.right)) / z,
+            camera.center_y - camera.focal * dot(d, widen(camera.up)) / z};
 }
 
 template <class See>  // see(x, y)
@@ -73,11 +70,11 @@ TEST_CASE("positions lie on the pixel's ray and depth is measured along the view
     double farthest = 0, depth_error = 0;
     int pixels = 0, slid = 0;
     each_hit(scene, frame, [&](int x, int y) {
-        const Vec3d p = to_double(frame.at(frame.position, x, y));
+        const Vec3d p = widen(frame.at(frame.position, x, y));
         const Vec2<double> pixel = pixel_of(scene.view.camera, p);
         farthest = std::max(farthest, std::hypot(pixel.x - x - 0.5, pixel.y - y - 0.5));
-        const Vec3d d = p - to_double(scene.view.camera.eye);
-        const double depth = dot(d, to_double(scene.view.camera.forward));
+        const Vec3d d = p - widen(scene.view.camera.eye);
+        const double depth = dot(d, widen(scene.view.camera.forward));
         depth_error = std::max(depth_error, std::abs(frame.depth.at(x, y) / depth - 1));
         slid += std::abs(frame.depth.at(x, y) / depth - 1) > 1e-6;
         ++pixels;
@@ -98,10 +95,10 @@ TEST_CASE("motion is that of the point's projections in double precision") {
     const Frame frame = render(scene);
     double worst = 0;
     each_hit(scene, frame, [&](int x, int y) {
-        const Vec3d p = to_double(frame.at(frame.position, x, y));
+        const Vec3d p = widen(frame.at(frame.position, x, y));
         const Affine3f& map = scene.view.instances[0].previous_from_current;
-        const Vec3d before = to_double(map.column_x) * p.x + to_double(map.column_y) * p.y +
-                             to_double(map.column_z) * p.z + to_double(map.translation);
+        const Vec3d before = widen(map.column_x) * p.x + widen(map.column_y) * p.y +
+                             widen(map.column_z) * p.z + widen(map.translation);
         const Vec2<double> now = pixel_of(scene.view.camera, p);
         const Vec2<double> then = pixel_of(scene.view.previous_camera, before);
         worst = std::max({worst, std::abs(frame.motion_x.at(x, y) - (now.x - then.x)),
@@ -193,11 +190,11 @@ TEST_CASE("the mip level follows the screen-space derivatives of the texture coo
     // Texture coordinates of the plane behind a pixel, by intersecting it in double.
     const auto uv = [&](double px, double py) {
         const Camera& c = scene.view.camera;
-        const Vec3d d = to_double(c.right) * ((px - c.center_x) / c.focal) +
-                        to_double(c.up) * ((c.center_y - py) / c.focal) + to_double(c.forward);
+        const Vec3d d = widen(c.right) * ((px - c.center_x) / c.focal) +
+                        widen(c.up) * ((c.center_y - py) / c.focal) + widen(c.forward);
         const Vec3d n{-0.03, 1, 0};
-        const double t = -dot(n, to_double(c.eye)) / dot(n, d);
-        const Vec3d p = to_double(c.eye) + d * t;
+        const double t = -dot(n, widen(c.eye)) / dot(n, d);
+        const Vec3d p = widen(c.eye) + d * t;
         return Vec2<double>{(p.x / 6 + 1) / 2, (-p.z / 6 + 1) / 2};
     };
     double worst = 0;

@@ -24,6 +24,13 @@ class Arrays {
     }
     float* row(int plane) { return planes_[static_cast<std::size_t>(plane)].row(0); }
     [[nodiscard]] int count() const { return count_; }
+    shadow::RayStream stream() {
+        return {.origin = {row(0), row(1), row(2)},
+                .direction = {row(3), row(4), row(5)},
+                .near_limit = row(6),
+                .far_limit = row(7),
+                .count = count_};
+    }
     std::vector<bool> blocked() {
         std::vector<bool> bits;
         for (int i = 0; i < count_; ++i) bits.push_back(row(7)[i] < 0);
@@ -70,37 +77,27 @@ void occlude_packets(Arrays& rays, const Occluded& occluded) {
     }
 }
 
-void occlude_single(RTCScene scene, RTCIntersectContext& context, Arrays& rays) {
+void occlude_single(RTCScene scene, embree::Query& query, Arrays& rays) {
     for (int i = 0; i < rays.count(); ++i) {
         RTCRay ray{};
         ray.org_x = rays.row(0)[i], ray.org_y = rays.row(1)[i], ray.org_z = rays.row(2)[i];
         ray.dir_x = rays.row(3)[i], ray.dir_y = rays.row(4)[i], ray.dir_z = rays.row(5)[i];
         ray.tfar = rays.row(7)[i];
         ray.mask = ~0u;
-        rtcOccluded1(scene, &context, &ray);
+        embree::occlude(scene, query, ray);
         rays.row(7)[i] = ray.tfar;
     }
 }
 
-void occlude_stream(RTCScene scene, RTCIntersectContext& context, Arrays& rays) {
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRayNp stream{};
-    stream.org_x = rays.row(0), stream.org_y = rays.row(1), stream.org_z = rays.row(2);
-    stream.dir_x = rays.row(3), stream.dir_y = rays.row(4), stream.dir_z = rays.row(5);
-    stream.tnear = rays.row(6), stream.tfar = rays.row(7);
-    rtcOccludedNp(scene, &context, &stream, static_cast<unsigned>(rays.count()));
-}
-
 void occlude(RTCScene scene, int packet, Arrays& rays) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    embree::Query query(embree::Order::kIncoherent);
     if (packet == 1)
-        occlude_single(scene, context, rays);
+        occlude_single(scene, query, rays);
     else if (packet == 0)
-        occlude_stream(scene, context, rays);
+        embree::occlude(scene, query, rays.stream());
     else
         occlude_packets<8, RTCRay8>(
-            rays, [&](const int* valid, RTCRay8& p) { rtcOccluded8(valid, scene, &context, &p); });
+            rays, [&](const int* valid, RTCRay8& p) { embree::occlude(scene, query, valid, p); });
 }
 
 }  // namespace

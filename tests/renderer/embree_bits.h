@@ -1,11 +1,10 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <string>
 #include <vector>
 
 #include "core/frame/scene_view.h"
+#include "shadow/embree.h"
 
 // Which rays are blocked, according to Embree by itself with any of its instruction sets and forms
 // of call, and according to the exact test.

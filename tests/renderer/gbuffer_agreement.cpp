@@ -1,6 +1,5 @@
 #include "tests/renderer/gbuffer_agreement.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "core/parallel/tiles.h"
 #include "core/scene/cutout.h"
 #include "raster/resolve.h"
+#include "shadow/embree.h"
 
 namespace penumbra::tests {
 namespace {
@@ -91,9 +91,8 @@ class RayTracer {
         ray.ray.tfar = std::numeric_limits<float>::infinity();
         ray.ray.mask = ~0u;
         ray.hit.geomID = ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &ray);
+        embree::Query query(embree::Order::kIncoherent);
+        embree::intersect(scene_, query, ray);
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
         return {ray.hit.geomID,
                 ray.hit.primID,
