@@ -1,7 +1,7 @@
 #include "denoise/combine_kernel.h"
 
 #include "core/simd/kernel.h"
-#include "denoise/combine_formula.h"
+#include "denoise/estimator.h"
 
 namespace penumbra::PENUMBRA_ISA {
 
@@ -16,10 +16,11 @@ static void combine_row(const denoise::CombineInputs& inputs,
     float* const beauty = outputs.beauty[channel].row(y);
     float* const ratio = outputs.ratio[channel] ? outputs.ratio[channel].row(y) : nullptr;
     for (int x = elements.x0; x < elements.x1; x += kLanes) {
-        const F w = denoise::shadow_ratio(simd::load<F>(shadowed + x), simd::load<F>(samples + x));
-        if (ratio) simd::store(ratio + x, w);
-        simd::store(beauty + x, denoise::combined_radiance(simd::load<F>(emission + x),
-                                                           simd::load<F>(unshadowed + x), w));
+        const F s = simd::load<F>(shadowed + x);
+        const F u = simd::load<F>(samples + x);
+        if (ratio) simd::store(ratio + x, denoise::shadow_ratio(s, u));
+        simd::store(beauty + x, denoise::finish(inputs.estimator, simd::load<F>(emission + x),
+                                                simd::load<F>(unshadowed + x), s, u));
     }
 }
 

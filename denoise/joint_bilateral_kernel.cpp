@@ -1,7 +1,7 @@
 #include "denoise/joint_bilateral_kernel.h"
 
 #include "core/simd/kernel.h"
-#include "denoise/combine_formula.h"
+#include "denoise/estimator.h"
 
 namespace penumbra::PENUMBRA_ISA {
 namespace {
@@ -141,23 +141,25 @@ FilterSources column_sources(const denoise::VerticalFilterPass& pass, int x, int
     return at;
 }
 
-void combine_channel(const denoise::VerticalFilterPass& pass, std::size_t channel, int x, int y,
-                     F ratio) {
-    const F emission = simd::load<F>(pass.sums.emission[channel].row(y) + x);
-    const F unshadowed = simd::load<F>(pass.sums.unshadowed[channel].row(y) + x);
-    simd::store(pass.outputs.beauty[channel].row(y) + x,
-                denoise::combined_radiance(emission, unshadowed, ratio));
+void finish_channel(const denoise::VerticalFilterPass& pass, std::size_t channel, int x, int y,
+                    F shadowed, F unshadowed_samples) {
+    const denoise::CombineInputs& sums = pass.sums;
+    const F emission = simd::load<F>(sums.emission[channel].row(y) + x);
+    const F unshadowed = simd::load<F>(sums.unshadowed[channel].row(y) + x);
+    simd::store(
+        pass.outputs.beauty[channel].row(y) + x,
+        denoise::finish(sums.estimator, emission, unshadowed, shadowed, unshadowed_samples));
+    if (pass.outputs.ratio[channel])
+        simd::store(pass.outputs.ratio[channel].row(y) + x,
+                    denoise::shadow_ratio(shadowed, unshadowed_samples));
 }
 
 void write_outputs(const denoise::VerticalFilterPass& pass, int x, int y, const Light& light) {
     const Vec3<F>& s = light.shadowed;
     const Vec3<F>& u = light.unshadowed_samples;
-    const Vec3<F> ratio{denoise::shadow_ratio(s.x, u.x), denoise::shadow_ratio(s.y, u.y),
-                        denoise::shadow_ratio(s.z, u.z)};
-    combine_channel(pass, 0, x, y, ratio.x);
-    combine_channel(pass, 1, x, y, ratio.y);
-    combine_channel(pass, 2, x, y, ratio.z);
-    if (pass.outputs.ratio[0]) store3(pass.outputs.ratio, x, y, ratio);
+    finish_channel(pass, 0, x, y, s.x, u.x);
+    finish_channel(pass, 1, x, y, s.y, u.y);
+    finish_channel(pass, 2, x, y, s.z, u.z);
     if (pass.shadowed[0]) store3(pass.shadowed, x, y, s);
     if (pass.unshadowed_samples[0]) store3(pass.unshadowed_samples, x, y, u);
 }

@@ -42,8 +42,7 @@ void write_ratios(const NoiseChunk& c, int y) {
         const int x = c.chunk.x0 - kApronX + i;
         F w = F(kNaN);
         if (row_exists && x + kLanes > c.existing.x0 && x < c.existing.x1) {
-            w = denoise::luminance_ratio(load3(c.pass->shadowed, x, y),
-                                         load3(c.pass->unshadowed_samples, x, y));
+            w = denoise::luminance_ratio(load3(c.pass->shadowed, x, y), load3(c.light, x, y));
             w = simd::select(exists(c, x), w, F(kNaN));
         }
         simd::store(ratio + i, w);

@@ -33,11 +33,12 @@ void for_each_band(const parallel::Arena& arena, const Film& film, const Body& b
     });
 }
 
-denoise::CombineInputs sums_of(const Film& film) {
+denoise::CombineInputs sums_of(const Film& film, denoise::Estimator estimator) {
     return {.shadowed = view(film.shadowed),
             .unshadowed_samples = view(film.unshadowed_samples),
             .unshadowed = view(film.unshadowed),
-            .emission = view(film.emission)};
+            .emission = view(film.emission),
+            .estimator = estimator};
 }
 
 denoise::CombineOutputs outputs_of(Film& film) {
@@ -45,9 +46,11 @@ denoise::CombineOutputs outputs_of(Film& film) {
 }
 
 // --denoise none.
-void combine_film(const FrameContext& context, const parallel::Arena& arena, Film& film) {
+void combine_film(const ImageSettings& image, const FrameContext& context,
+                  const parallel::Arena& arena, Film& film) {
+    const denoise::CombineInputs sums = sums_of(film, plan_of(image.method).estimator);
     for_each_band(arena, film, [&](const PixelRect& band, int) {
-        denoise::combine(window_of(film), sums_of(film), outputs_of(film), band, context.isa);
+        denoise::combine(window_of(film), sums, outputs_of(film), band, context.isa);
     });
     // The terms after a filter that does nothing.
     const auto keep = [&](const Plane3<float>& from, Plane3<float>& to) {
@@ -58,6 +61,11 @@ void combine_film(const FrameContext& context, const parallel::Arena& arena, Fil
     keep(film.unshadowed_samples, film.filtered_unshadowed_samples);
 }
 
+bool filters(const ImageSettings& image) {
+    return image.denoise != Denoise::kNone;
+}
+
+// What is filtered is measured; where nothing is, E is the shadow's.
 void estimate_noise(const ImageSettings& image, const FrameContext& context,
                     const parallel::Arena& arena, FrameScratch& scratch, Film& film) {
     const denoise::NoisePass pass{
@@ -67,7 +75,8 @@ void estimate_noise(const ImageSettings& image, const FrameContext& context,
         .unshadowed = view(std::as_const(film.unshadowed)),
         .noise = film.noise.view(),
         .settings = image.noise,
-        .isa = context.isa};
+        .isa = context.isa,
+        .noise_of = filters(image) ? plan_of(image.method).noise_of : denoise::NoiseOf::kShadow};
     for_each_band(arena, film, [&](const PixelRect& band, int worker) {
         denoise::estimate_noise(pass, band, scratch.workers[static_cast<std::size_t>(worker)]);
     });
@@ -94,7 +103,7 @@ void filter(const ImageSettings& image, const FrameContext& context, const Camer
     const denoise::VerticalFilterPass vertical{
         .frame = window_of(film),
         .guides = guides,
-        .sums = sums_of(film),
+        .sums = sums_of(film, plan_of(image.method).estimator),
         .outputs = outputs_of(film),
         .shadowed = view(film.filtered_shadowed),
         .unshadowed_samples = view(film.filtered_unshadowed_samples),
@@ -118,20 +127,6 @@ void average(int passes, const parallel::Arena& arena, Film& film) {
     });
 }
 
-// --method stochastic: emission + S_N.
-void add_samples(const parallel::Arena& arena, Film& film) {
-    for_each_band(arena, film, [&](const PixelRect& band, int) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (int y = band.y0 - film.window.y0; y < band.y1 - film.window.y0; ++y) {
-                const float* emission = film.emission[c].row(y);
-                const float* shadowed = film.shadowed[c].row(y);
-                float* beauty = film.beauty[c].row(y);
-                for (int x = 0; x < film.window.width(); ++x) beauty[x] = emission[x] + shadowed[x];
-            }
-        }
-    });
-}
-
 }  // namespace
 
 int frame_margin(const ImageSettings& image) {
@@ -142,20 +137,18 @@ int frame_margin(const ImageSettings& image) {
 void finish_frame(const FrameInputs& frame, FrameScratch& scratch, Film& film,
                   FrameStatistics& statistics) {
     const auto& [image, context, camera, arena, profile] = frame;
-    const bool filters = image.denoise == Denoise::kNoiseDriven && image.method == Method::kRatio;
     {
         const FramePass noise(Pass::kNoise, profile, statistics);
         prepare_scratch(film, arena.threads(), scratch);
         if (image.passes > 1) average(image.passes, arena, film);
-        if (filters || film.wanted.contains(Aov::kE))
+        if (filters(image) || film.wanted.contains(Aov::kE))
             estimate_noise(image, context, arena, scratch, film);
     }
     const FramePass filtering(Pass::kFilter, profile, statistics);
-    if (filters)
+    if (filters(image))
         filter(image, context, camera, arena, scratch, film);
     else
-        combine_film(context, arena, film);
-    if (image.method == Method::kStochastic) add_samples(arena, film);
+        combine_film(image, context, arena, film);
 }
 
 }  // namespace penumbra::renderer

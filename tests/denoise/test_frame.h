@@ -121,6 +121,8 @@ struct Run {
 struct Settings {
     NoiseSettings noise;
     FilterSettings filter;
+    Estimator estimator = Estimator::kRatio;
+    NoiseOf noise_of = NoiseOf::kShadow;
 };
 
 inline void for_each_band(const TestFrame& frame, const Run& run,
@@ -134,7 +136,7 @@ inline void run_noise(TestFrame& frame, const Settings& settings, const Run& run
     const TestFrame& in = frame;
     const NoisePass pass{
         frame.window,       view(in.shadowed), view(in.samples), view(in.unshadowed),
-        frame.noise.view(), settings.noise,    run.isa};
+        frame.noise.view(), settings.noise,    run.isa,          settings.noise_of};
     Scratch scratch(frame.width());
     for_each_band(frame, run, [&](const PixelRect& band) { estimate_noise(pass, band, scratch); });
 }
@@ -151,15 +153,15 @@ inline void run_filter(TestFrame& frame, const Settings& settings, const Run& ru
         filter_horizontally(rows, band.y0, band.y1, scratch);
     });
     const TestFrame& in = frame;
-    const VerticalFilterPass columns{
-        frame.window,
-        guides_of(frame),
-        {view(in.shadowed), view(in.samples), view(in.unshadowed), view(in.emission)},
-        {view(frame.beauty), view(frame.ratio)},
-        view(frame.filtered_shadowed),
-        view(frame.filtered_samples),
-        settings.filter,
-        run.isa};
+    const VerticalFilterPass columns{frame.window,
+                                     guides_of(frame),
+                                     {view(in.shadowed), view(in.samples), view(in.unshadowed),
+                                      view(in.emission), settings.estimator},
+                                     {view(frame.beauty), view(frame.ratio)},
+                                     view(frame.filtered_shadowed),
+                                     view(frame.filtered_samples),
+                                     settings.filter,
+                                     run.isa};
     for_each_band(frame, run, [&](const PixelRect& band) { filter_vertically(columns, band); });
 }
 
