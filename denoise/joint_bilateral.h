@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/frame/camera.h"
-#include "core/image/plane.h"
+#include "core/frame/term.h"
 #include "core/simd/isa.h"
 #include "denoise/combine.h"
 #include "denoise/frame_window.h"
@@ -12,7 +12,6 @@ namespace penumbra::denoise {
 
 // What guides the filter. All planes of the filter have one stride.
 struct FilterGuides {
-    PlaneView<const float> noise;  // E
     PlaneView<const float> depth;  // along the view axis
     // Unit, world, towards the viewer; 0 where nothing is hit. It spans the tangent plane that the
     // filter stays in: the geometric normal, for a shading normal would tilt that plane at every
@@ -29,8 +28,7 @@ struct FilterGuides {
 struct HorizontalFilterPass {
     FrameWindow frame;
     FilterGuides guides;
-    PlaneView3<float> shadowed;            // S_N, replaced
-    PlaneView3<float> unshadowed_samples;  // U_N, replaced
+    TermView term;  // S_N and U_N are replaced
     FilterSettings settings;
     simd::Isa isa = simd::Isa::kAvx2;
 };
@@ -41,10 +39,8 @@ void filter_horizontally(const HorizontalFilterPass& pass, int y0, int y1, Scrat
 struct VerticalFilterPass {
     FrameWindow frame;
     FilterGuides guides;
-    CombineInputs sums;  // S_N and U_N filtered horizontally, U, emission
+    CombineInputs sums;  // the term's S_N and U_N are filtered horizontally
     CombineOutputs outputs;
-    PlaneView3<float> shadowed;            // S_N after the filter, for AOVs; these may be empty
-    PlaneView3<float> unshadowed_samples;  // U_N after the filter
     FilterSettings settings;
     simd::Isa isa = simd::Isa::kAvx2;
 };

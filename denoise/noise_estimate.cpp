@@ -35,9 +35,10 @@ void estimate_noise(const NoisePass& pass, const PixelRect& band, Scratch& scrat
     StarOffsets rotations[kRotations];
     make_offsets(pass.settings.radius, rotations);
     constexpr std::size_t kPlane = static_cast<std::size_t>(kNoiseStride) * kNoiseRows;
+    const ConstTermView& term = pass.term;
     NoiseChunk chunk{
         .pass = &pass,
-        .light = pass.noise_of == NoiseOf::kLight ? pass.unshadowed : pass.unshadowed_samples,
+        .light = pass.noise_of == NoiseOf::kLight ? term.unshadowed : term.unshadowed_samples,
         .chunk = {},
         .existing = existing_elements(pass.frame),
         .rotations = rotations,

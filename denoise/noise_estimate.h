@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image/plane.h"
+#include "core/frame/term.h"
 #include "core/simd/isa.h"
 #include "denoise/estimator.h"
 #include "denoise/frame_window.h"
@@ -9,13 +9,12 @@
 
 namespace penumbra::denoise {
 
-// The planes of the noise estimate: what it reads and E, which it writes. All have one stride.
+// The planes of the noise estimate: the term that it reads, and E, which it writes. All have one
+// stride.
 struct NoisePass {
     FrameWindow frame;
-    PlaneView3<const float> shadowed;            // S_N
-    PlaneView3<const float> unshadowed_samples;  // U_N; sums are finite and not negative
-    PlaneView3<const float> unshadowed;          // U
-    PlaneView<float> noise;                      // E in [0, 1]
+    ConstTermView term;      // U, S_N and U_N, finite and not negative; E is not read
+    PlaneView<float> noise;  // E
     NoiseSettings settings;
     simd::Isa isa = simd::Isa::kAvx2;
     NoiseOf noise_of = NoiseOf::kShadow;

@@ -11,12 +11,8 @@ constexpr Estimator kEstimators[] = {Estimator::kRatio, Estimator::kStochastic,
                                      Estimator::kUnshadowed};
 
 void run_combine(TestFrame& frame, Estimator estimator, const Run& run) {
-    const TestFrame& in = frame;
     for_each_band(frame, run, [&](const PixelRect& band) {
-        combine(frame.window,
-                {view(in.shadowed), view(in.samples), view(in.unshadowed), view(in.emission),
-                 estimator},
-                {view(frame.beauty), view(frame.ratio)}, band, run.isa);
+        combine(frame.window, inputs_of(frame, estimator), outputs_of(frame), band, run.isa);
     });
 }
 
@@ -46,6 +42,8 @@ TEST_CASE("the picture is what the estimator makes, with the same bits for every
                     const float s = frame.shadowed[c].at(i, j);
                     const float u = frame.samples[c].at(i, j);
                     REQUIRE(same_bits(frame.ratio[c].at(i, j), shadow_ratio(s, u)));
+                    REQUIRE(same_bits(frame.filtered_shadowed[c].at(i, j), s));
+                    REQUIRE(same_bits(frame.filtered_samples[c].at(i, j), u));
                     REQUIRE(same_bits(frame.beauty[c].at(i, j),
                                       finish(estimator, frame.emission[c].at(i, j),
                                              frame.unshadowed[c].at(i, j), s, u)));

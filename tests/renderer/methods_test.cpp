@@ -61,9 +61,9 @@ TEST_CASE("unshadowed light is emission + U, traces nothing and has nothing to f
     int unlike = 0;
     each_pixel(film, [&](int x, int y) {
         for (std::size_t c = 0; c < 3; ++c) {
-            unlike +=
-                film.beauty[c].at(x, y) != film.emission[c].at(x, y) + film.unshadowed[c].at(x, y);
-            unlike += film.shadow[c].at(x, y) != 1.0f;
+            unlike += film.beauty[c].at(x, y) !=
+                      film.emission[c].at(x, y) + film.total().unshadowed[c].at(x, y);
+            unlike += film.total().ratio[c].at(x, y) != 1.0f;
         }
     });
     CHECK(unlike == 0);
@@ -77,8 +77,9 @@ TEST_CASE("with visibility 1 the filtered stochastic frame is emission + the fil
     int unlike = 0;
     each_pixel(film, [&](int x, int y) {
         for (std::size_t c = 0; c < 3; ++c)
-            unlike += film.beauty[c].at(x, y) !=
-                      film.emission[c].at(x, y) + film.filtered_unshadowed_samples[c].at(x, y);
+            unlike +=
+                film.beauty[c].at(x, y) !=
+                film.emission[c].at(x, y) + film.total().filtered_unshadowed_samples[c].at(x, y);
     });
     CHECK(unlike == 0);
 }
