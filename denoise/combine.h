@@ -1,22 +1,26 @@
 #pragma once
 
-#include "core/image/plane.h"
+#include "core/frame/term.h"
 #include "core/simd/isa.h"
+#include "denoise/estimator.h"
 #include "denoise/frame_window.h"
 
 namespace penumbra::denoise {
 
-// beauty = emission + U * clamp(S_N / U_N, 0, 1) per channel, W = 1 where U_N = 0: the whole of
-// `--denoise none`, and what every filter ends in. All planes have one stride.
+// beauty = finish(emission, U, S_N, U_N) per channel: the whole of `--denoise none`, and what every
+// filter ends in. Terms add up: the next one's `emission` is the beauty that the ones before it
+// left, in place. All planes have one stride.
 struct CombineInputs {
-    PlaneView3<const float> shadowed;            // S_N
-    PlaneView3<const float> unshadowed_samples;  // U_N
-    PlaneView3<const float> unshadowed;          // U
+    ConstTermView term;
     PlaneView3<const float> emission;
+    Estimator estimator = Estimator::kRatio;
 };
 struct CombineOutputs {
     PlaneView3<float> beauty;
-    PlaneView3<float> ratio;  // W, for its AOV; may be empty
+    // For AOVs, each may be empty: W, of whatever estimator; S_N and U_N as the estimator saw them.
+    PlaneView3<float> ratio;
+    PlaneView3<float> shadowed;
+    PlaneView3<float> unshadowed_samples;
 };
 
 // Writes the pixels of `band`, whose x0 is a multiple of kBlock; whole blocks are written, up to

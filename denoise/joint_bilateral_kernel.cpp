@@ -1,7 +1,7 @@
 #include "denoise/joint_bilateral_kernel.h"
 
 #include "core/simd/kernel.h"
-#include "denoise/combine_formula.h"
+#include "denoise/estimator.h"
 
 namespace penumbra::PENUMBRA_ISA {
 namespace {
@@ -43,10 +43,10 @@ M exists(const RowFilter& filter, int x) {
 }
 
 F row_radius(const RowFilter& filter, int x, int y) {
-    const denoise::FilterGuides& guides = filter.pass->guides;
+    const denoise::HorizontalFilterPass& pass = *filter.pass;
     const F radius =
-        denoise::gaussian_radius(simd::load<F>(guides.noise.row(y) + x),
-                                 simd::load<F>(guides.depth.row(y) + x), filter.pass->settings);
+        denoise::gaussian_radius(simd::load<F>(pass.term.noise.row(y) + x),
+                                 simd::load<F>(pass.guides.depth.row(y) + x), pass.settings);
     return simd::select(exists(filter, x), radius, F(0));
 }
 
@@ -78,8 +78,8 @@ void copy_block(const RowFilter& filter, int block, int blocks, int y) {
     for (int i = 0; i < 3; ++i) {
         const auto channel = static_cast<std::size_t>(i);
         copy(1 + i, pass.guides.normal[channel]);
-        copy(4 + i, pass.shadowed[channel]);
-        copy(7 + i, pass.unshadowed_samples[channel]);
+        copy(4 + i, pass.term.shadowed[channel]);
+        copy(7 + i, pass.term.unshadowed_samples[channel]);
     }
 }
 
@@ -103,8 +103,8 @@ void filter_block(const RowFilter& filter, int block, int y) {
         const Light light = filter_pixels(row_sources(filter, x), taps, radius,
                                           direction(pass.guides, pass.frame.window, x, y),
                                           filter.step, pass.settings);
-        store3(pass.shadowed, x, y, light.shadowed);
-        store3(pass.unshadowed_samples, x, y, light.unshadowed_samples);
+        store3(pass.term.shadowed, x, y, light.shadowed);
+        store3(pass.term.unshadowed_samples, x, y, light.unshadowed_samples);
     }
 }
 
@@ -135,37 +135,40 @@ FilterSources column_sources(const denoise::VerticalFilterPass& pass, int x, int
     at.depth = pass.guides.depth.row(y) + x;
     for (std::size_t i = 0; i < 3; ++i) {
         at.normal[i] = pass.guides.normal[i].row(y) + x;
-        at.shadowed[i] = pass.sums.shadowed[i].row(y) + x;
-        at.unshadowed_samples[i] = pass.sums.unshadowed_samples[i].row(y) + x;
+        at.shadowed[i] = pass.sums.term.shadowed[i].row(y) + x;
+        at.unshadowed_samples[i] = pass.sums.term.unshadowed_samples[i].row(y) + x;
     }
     return at;
 }
 
-void combine_channel(const denoise::VerticalFilterPass& pass, std::size_t channel, int x, int y,
-                     F ratio) {
-    const F emission = simd::load<F>(pass.sums.emission[channel].row(y) + x);
-    const F unshadowed = simd::load<F>(pass.sums.unshadowed[channel].row(y) + x);
-    simd::store(pass.outputs.beauty[channel].row(y) + x,
-                denoise::combined_radiance(emission, unshadowed, ratio));
+void finish_channel(const denoise::VerticalFilterPass& pass, std::size_t channel, int x, int y,
+                    F shadowed, F unshadowed_samples) {
+    const denoise::CombineInputs& sums = pass.sums;
+    const F emission = simd::load<F>(sums.emission[channel].row(y) + x);
+    const F unshadowed = simd::load<F>(sums.term.unshadowed[channel].row(y) + x);
+    simd::store(
+        pass.outputs.beauty[channel].row(y) + x,
+        denoise::finish(sums.estimator, emission, unshadowed, shadowed, unshadowed_samples));
+    if (pass.outputs.ratio[channel])
+        simd::store(pass.outputs.ratio[channel].row(y) + x,
+                    denoise::shadow_ratio(shadowed, unshadowed_samples));
 }
 
 void write_outputs(const denoise::VerticalFilterPass& pass, int x, int y, const Light& light) {
     const Vec3<F>& s = light.shadowed;
     const Vec3<F>& u = light.unshadowed_samples;
-    const Vec3<F> ratio{denoise::shadow_ratio(s.x, u.x), denoise::shadow_ratio(s.y, u.y),
-                        denoise::shadow_ratio(s.z, u.z)};
-    combine_channel(pass, 0, x, y, ratio.x);
-    combine_channel(pass, 1, x, y, ratio.y);
-    combine_channel(pass, 2, x, y, ratio.z);
-    if (pass.outputs.ratio[0]) store3(pass.outputs.ratio, x, y, ratio);
-    if (pass.shadowed[0]) store3(pass.shadowed, x, y, s);
-    if (pass.unshadowed_samples[0]) store3(pass.unshadowed_samples, x, y, u);
+    finish_channel(pass, 0, x, y, s.x, u.x);
+    finish_channel(pass, 1, x, y, s.y, u.y);
+    finish_channel(pass, 2, x, y, s.z, u.z);
+    const denoise::CombineOutputs& outputs = pass.outputs;
+    if (outputs.shadowed[0]) store3(outputs.shadowed, x, y, s);
+    if (outputs.unshadowed_samples[0]) store3(outputs.unshadowed_samples, x, y, u);
 }
 
 void filter_and_combine(const ColumnFilter& filter, int x, int y) {
     const denoise::VerticalFilterPass& pass = *filter.pass;
     const FilterSources at = column_sources(pass, x, y);
-    const F radius = denoise::gaussian_radius(simd::load<F>(pass.guides.noise.row(y) + x),
+    const F radius = denoise::gaussian_radius(simd::load<F>(pass.sums.term.noise.row(y) + x),
                                               simd::load<F>(at.depth), pass.settings);
     if (simd::none(radius > F(0))) {
         write_outputs(pass, x, y, denoise::load_light<F>(at, 0));

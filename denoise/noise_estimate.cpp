@@ -35,14 +35,17 @@ void estimate_noise(const NoisePass& pass, const PixelRect& band, Scratch& scrat
     StarOffsets rotations[kRotations];
     make_offsets(pass.settings.radius, rotations);
     constexpr std::size_t kPlane = static_cast<std::size_t>(kNoiseStride) * kNoiseRows;
-    NoiseChunk chunk{.pass = &pass,
-                     .chunk = {},
-                     .existing = existing_elements(pass.frame),
-                     .rotations = rotations,
-                     .ratio = scratch.data(),
-                     .unsmoothed = scratch.data() + kPlane,
-                     .lowest = scratch.data() + 2 * kPlane,
-                     .highest = scratch.data() + 2 * kPlane + kCells * kBlock};
+    const ConstTermView& term = pass.term;
+    NoiseChunk chunk{
+        .pass = &pass,
+        .light = pass.noise_of == NoiseOf::kLight ? term.unshadowed : term.unshadowed_samples,
+        .chunk = {},
+        .existing = existing_elements(pass.frame),
+        .rotations = rotations,
+        .ratio = scratch.data(),
+        .unsmoothed = scratch.data() + kPlane,
+        .lowest = scratch.data() + 2 * kPlane,
+        .highest = scratch.data() + 2 * kPlane + kCells * kBlock};
     const PixelRect elements = band_elements(pass.frame, band);
     for (int y = elements.y0; y < elements.y1; y += kChunkHeight)
         for (int x = elements.x0; x < elements.x1; x += kChunkWidth) {

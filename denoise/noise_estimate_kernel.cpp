@@ -42,8 +42,7 @@ void write_ratios(const NoiseChunk& c, int y) {
         const int x = c.chunk.x0 - kApronX + i;
         F w = F(kNaN);
         if (row_exists && x + kLanes > c.existing.x0 && x < c.existing.x1) {
-            w = denoise::luminance_ratio(load3(c.pass->shadowed, x, y),
-                                         load3(c.pass->unshadowed_samples, x, y));
+            w = denoise::luminance_ratio(load3(c.pass->term.shadowed, x, y), load3(c.light, x, y));
             w = simd::select(exists(c, x), w, F(kNaN));
         }
         simd::store(ratio + i, w);
@@ -136,7 +135,7 @@ void write_noise_row(const NoiseChunk& c, int y) {
         const F ratio = simd::load<F>(c.ratio + scratch_index(c, x, y));
         const M unknown = ratio != ratio;
         if (simd::any(unknown)) {
-            const M to_fill = unknown & (luminance(load3(c.pass->unshadowed, x, y)) > F(0));
+            const M to_fill = unknown & (luminance(load3(c.pass->term.unshadowed, x, y)) > F(0));
             e = simd::select(to_fill, F(1), e);
         }
         simd::store(noise + x, e);

@@ -29,12 +29,13 @@ constexpr std::size_t noise_scratch_size() {
 
 struct NoiseChunk {
     const NoisePass* pass;
-    PixelRect chunk;               // elements of the planes, at most kChunkWidth x kChunkHeight
-    PixelRect existing;            // elements that are pixels of the frame
-    const StarOffsets* rotations;  // kRotations of them, for kNoiseStride
-    float* ratio;                  // W_N, NaN where unknown or outside
-    float* unsmoothed;             // E before the box, 0 outside
-    float* lowest;                 // kBlock numbers per cell: the range of each column's W_N
+    PlaneView3<const float> light;  // what S_N is divided by: U_N or U
+    PixelRect chunk;                // elements of the planes, at most kChunkWidth x kChunkHeight
+    PixelRect existing;             // elements that are pixels of the frame
+    const StarOffsets* rotations;   // kRotations of them, for kNoiseStride
+    float* ratio;                   // S_N / light, NaN where unknown or outside
+    float* unsmoothed;              // E before the box, 0 outside
+    float* lowest;                  // kBlock numbers per cell: the range of each column's W_N
     float* highest;
 };
 

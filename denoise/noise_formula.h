@@ -11,7 +11,8 @@
 // McGuire (2018), section 4.2: E is the total variation of the derivative of W along n lines,
 // eq. 29. Differs: W is a luminance; pixels where nothing was learned (U_N = 0) and pixels outside
 // of the frame belong to no second difference, and the sum over the rest is scaled up to the full
-// number.
+// number. For the stochastic estimate, U stands in the place of U_N (NoiseOf::kLight): that ratio
+// may exceed 1, and E, which ends at 1, is the same formula.
 
 namespace penumbra::denoise {
 

@@ -72,10 +72,11 @@ void scale(Plane<float>& plane, float factor, int y0, int y1) {
 void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLightSumsView& sums,
              int pass, Film& film) {
     const Place place(tile, pass, film);
+    Term& total = film.total();
     for (std::size_t i = 0; i < 3; ++i)
-        place.sum_of(sums.unshadowed_diffuse[i], sums.unshadowed_glossy[i], film.unshadowed[i]);
-    place.sum3(sums.shadowed, film.shadowed);
-    place.sum3(sums.unshadowed_samples, film.unshadowed_samples);
+        place.sum_of(sums.unshadowed_diffuse[i], sums.unshadowed_glossy[i], total.unshadowed[i]);
+    place.sum3(sums.shadowed, total.shadowed);
+    place.sum3(sums.unshadowed_samples, total.unshadowed_samples);
     place.sum3(surface.emission, film.emission);
     place.sum3(surface.base_color, film.base_color);
     place.sum(surface.roughness, film.roughness);
@@ -95,9 +96,14 @@ void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLight
 
 void scale_to_means(int passes, int y0, int y1, Film& film) {
     const float factor = 1.0f / static_cast<float>(passes);
-    for (Plane3<float>* planes : {&film.unshadowed, &film.shadowed, &film.unshadowed_samples,
-                                  &film.emission, &film.base_color})
-        for (Plane<float>& plane : *planes) scale(plane, factor, y0, y1);
+    const auto scale3 = [&](Plane3<float>& planes) {
+        for (Plane<float>& plane : planes) scale(plane, factor, y0, y1);
+    };
+    for (Term& term : film.terms)
+        for (Plane3<float>* sum : {&term.unshadowed, &term.shadowed, &term.unshadowed_samples})
+            scale3(*sum);
+    scale3(film.emission);
+    scale3(film.base_color);
     for (Plane<float>* plane : {&film.roughness, &film.metallic, &film.coverage})
         scale(*plane, factor, y0, y1);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace penumbra::renderer {
 namespace {
 
@@ -21,7 +23,28 @@ PixelRect rendered_window(int width, int height, PixelRect crop, int margin) {
             .y1 = tile_ceiling(std::min(crop.y1 + margin, height))};
 }
 
+Term make_term(const PixelRect& window, AovSet wanted) {
+    const auto plane3 = [&] { return make_plane3<float>(window.width(), window.height()); };
+    Term term{.unshadowed = plane3(),
+              .shadowed = plane3(),
+              .unshadowed_samples = plane3(),
+              .noise = Plane<float>(window.width(), window.height())};
+    if (wanted.contains(Aov::kW)) term.ratio = plane3();
+    if (wanted.contains(Aov::kS)) term.filtered_shadowed = plane3();
+    if (wanted.contains(Aov::kUn)) term.filtered_unshadowed_samples = plane3();
+    return term;
+}
+
 }  // namespace
+
+Term& Film::total() {
+    PENUMBRA_ASSERT(terms.size() == 1, "{} terms", terms.size());
+    return terms.front();
+}
+const Term& Film::total() const {
+    PENUMBRA_ASSERT(terms.size() == 1, "{} terms", terms.size());
+    return terms.front();
+}
 
 void prepare_film(int width, int height, PixelRect crop, int margin, AovSet wanted, Film& film) {
     const PixelRect window = rendered_window(width, height, crop, margin);
@@ -36,19 +59,13 @@ void prepare_film(int width, int height, PixelRect crop, int margin, AovSet want
     const auto plane3 = [&] { return make_plane3<float>(window.width(), window.height()); };
     const auto ids = [&] { return Plane<std::uint32_t>(window.width(), window.height()); };
 
-    film.unshadowed = plane3();
-    film.shadowed = plane3();
-    film.unshadowed_samples = plane3();
+    film.terms.push_back(make_term(window, wanted));
     film.emission = plane3();
     film.coverage = plane();
     film.depth = plane();
     film.geometric_normal = plane3();
     film.beauty = plane3();
-    film.noise = plane();
-    if (wanted.contains(Aov::kW)) film.shadow = plane3();
     if (wanted.contains(Aov::kP)) film.position = plane3();
-    if (wanted.contains(Aov::kS)) film.filtered_shadowed = plane3();
-    if (wanted.contains(Aov::kUn)) film.filtered_unshadowed_samples = plane3();
     if (wanted.contains(Aov::kN)) film.normal = plane3();
     if (wanted.contains(Aov::kAlbedo)) film.base_color = plane3();
     if (wanted.contains(Aov::kRoughness)) film.roughness = plane();

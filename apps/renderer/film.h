@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "apps/renderer/aov.h"
 #include "core/frame/light_sums.h"
 #include "core/frame/surface.h"
+#include "core/frame/term.h"
 
 namespace penumbra::renderer {
 
@@ -15,10 +18,12 @@ struct Film {
     PixelRect window;           // crop + the filters' margin, in whole tiles: what is rendered
     AovSet wanted;
 
-    // Left behind by the tile passes; sums over the --aa passes until they are scaled to means.
-    Plane3<float> unshadowed;          // U
-    Plane3<float> shadowed;            // S_N; the filter replaces it by a half-filtered one
-    Plane3<float> unshadowed_samples;  // U_N; likewise
+    // All light, in parts that are filtered apart and add up. The renderer makes one, the total.
+    // The tile passes leave U, S_N and U_N, sums over the --aa passes until they are scaled to
+    // means; E and what is filtered are the frame passes'.
+    std::vector<Term> terms;
+
+    // Left behind by the tile passes; sums likewise.
     Plane3<float> emission;
     Plane<float> coverage;
     Plane<float> depth;  // first --aa pass, as are normals, position, motion and ids
@@ -26,15 +31,15 @@ struct Film {
 
     // Left behind by the frame passes.
     Plane3<float> beauty;
-    Plane<float> noise;  // E
 
     // Only if wanted.
-    Plane3<float> shadow;             // W
-    Plane3<float> filtered_shadowed;  // S_N and U_N after the filter
-    Plane3<float> filtered_unshadowed_samples;
     Plane3<float> position, normal, base_color;
     Plane<float> roughness, metallic, motion_x, motion_y;
     Plane<std::uint32_t> instance, triangle, material;
+
+    // The only term: all light, which tiles add to and which the AOVs U, S, Un, W and E show.
+    [[nodiscard]] Term& total();
+    [[nodiscard]] const Term& total() const;
 };
 
 // Allocates the planes, anew only where the size or the wanted set changed.

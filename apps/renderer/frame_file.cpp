@@ -91,15 +91,15 @@ void add_aov(const AovInfo& aov, const Film& film, Channels& channels) {
             channels.add(aov.channels[3], aov.type, film.coverage);
             return;
         case Aov::kU:
-            return channels.add(aov, film.unshadowed);
+            return channels.add(aov, film.total().unshadowed);
         case Aov::kS:
-            return channels.add(aov, film.filtered_shadowed);
+            return channels.add(aov, film.total().filtered_shadowed);
         case Aov::kUn:
-            return channels.add(aov, film.filtered_unshadowed_samples);
+            return channels.add(aov, film.total().filtered_unshadowed_samples);
         case Aov::kW:
-            return channels.add(aov, film.shadow);
+            return channels.add(aov, film.total().ratio);
         case Aov::kE:
-            return channels.add(aov, film.noise);
+            return channels.add(aov, film.total().noise);
         case Aov::kEmission:
             return channels.add(aov, film.emission);
         case Aov::kAlbedo:

@@ -33,74 +33,70 @@ void for_each_band(const parallel::Arena& arena, const Film& film, const Body& b
     });
 }
 
-denoise::CombineInputs sums_of(const Film& film) {
-    return {.shadowed = view(film.shadowed),
-            .unshadowed_samples = view(film.unshadowed_samples),
-            .unshadowed = view(film.unshadowed),
-            .emission = view(film.emission)};
+bool filters(const ImageSettings& image) {
+    return image.denoise != Denoise::kNone;
 }
 
-denoise::CombineOutputs outputs_of(Film& film) {
-    return {.beauty = view(film.beauty), .ratio = view(film.shadow)};
-}
-
-// --denoise none.
-void combine_film(const FrameContext& context, const parallel::Arena& arena, Film& film) {
-    for_each_band(arena, film, [&](const PixelRect& band, int) {
-        denoise::combine(window_of(film), sums_of(film), outputs_of(film), band, context.isa);
-    });
-    // The terms after a filter that does nothing.
-    const auto keep = [&](const Plane3<float>& from, Plane3<float>& to) {
-        for (std::size_t c = 0; c < 3 && !to[c].empty(); ++c)
-            std::copy_n(from[c].row(0), from[c].allocated_elements(), to[c].row(0));
-    };
-    keep(film.shadowed, film.filtered_shadowed);
-    keep(film.unshadowed_samples, film.filtered_unshadowed_samples);
-}
-
-void estimate_noise(const ImageSettings& image, const FrameContext& context,
-                    const parallel::Arena& arena, FrameScratch& scratch, Film& film) {
+// What is filtered is measured; where nothing is, E is the shadow's.
+void estimate_noise(const FrameInputs& frame, const Film& film, FrameScratch& scratch, Term& term) {
+    const ImageSettings& image = frame.image;
     const denoise::NoisePass pass{
         .frame = window_of(film),
-        .shadowed = view(std::as_const(film.shadowed)),
-        .unshadowed_samples = view(std::as_const(film.unshadowed_samples)),
-        .unshadowed = view(std::as_const(film.unshadowed)),
-        .noise = film.noise.view(),
+        .term = view(std::as_const(term)),
+        .noise = term.noise.view(),
         .settings = image.noise,
-        .isa = context.isa};
-    for_each_band(arena, film, [&](const PixelRect& band, int worker) {
+        .isa = frame.context.isa,
+        .noise_of = filters(image) ? plan_of(image.method).noise_of : denoise::NoiseOf::kShadow};
+    for_each_band(frame.arena, film, [&](const PixelRect& band, int worker) {
         denoise::estimate_noise(pass, band, scratch.workers[static_cast<std::size_t>(worker)]);
     });
 }
 
+// Terms add up: one begins where the ones before it ended.
+denoise::CombineInputs inputs_of(const FrameInputs& frame, const Film& film, const Term& term) {
+    const bool is_first = &term == &film.terms.front();
+    return {.term = view(term),
+            .emission = view(is_first ? film.emission : film.beauty),
+            .estimator = plan_of(frame.image.method).estimator};
+}
+
+denoise::CombineOutputs outputs_of(Film& film, Term& term) {
+    return {.beauty = view(film.beauty),
+            .ratio = view(term.ratio),
+            .shadowed = view(term.filtered_shadowed),
+            .unshadowed_samples = view(term.filtered_unshadowed_samples)};
+}
+
+// --denoise none.
+void combine(const FrameInputs& frame, Film& film, Term& term) {
+    const denoise::CombineInputs inputs = inputs_of(frame, film, term);
+    const denoise::CombineOutputs outputs = outputs_of(film, term);
+    for_each_band(frame.arena, film, [&](const PixelRect& band, int) {
+        denoise::combine(window_of(film), inputs, outputs, band, frame.context.isa);
+    });
+}
+
 // Horizontally in place, then vertically into the picture.
-void filter(const ImageSettings& image, const FrameContext& context, const Camera& camera,
-            const parallel::Arena& arena, FrameScratch& scratch, Film& film) {
-    const denoise::FilterGuides guides{.noise = std::as_const(film.noise).view(),
-                                       .depth = std::as_const(film.depth).view(),
+void filter(const FrameInputs& frame, Film& film, FrameScratch& scratch, Term& term) {
+    const denoise::FilterGuides guides{.depth = std::as_const(film.depth).view(),
                                        .normal = view(std::as_const(film.geometric_normal)),
-                                       .camera = camera};
-    const denoise::HorizontalFilterPass horizontal{
-        .frame = window_of(film),
-        .guides = guides,
-        .shadowed = view(film.shadowed),
-        .unshadowed_samples = view(film.unshadowed_samples),
-        .settings = image.filter,
-        .isa = context.isa};
-    for_each_band(arena, film, [&](const PixelRect& band, int worker) {
+                                       .camera = frame.camera};
+    const denoise::HorizontalFilterPass horizontal{.frame = window_of(film),
+                                                   .guides = guides,
+                                                   .term = view(term),
+                                                   .settings = frame.image.filter,
+                                                   .isa = frame.context.isa};
+    for_each_band(frame.arena, film, [&](const PixelRect& band, int worker) {
         denoise::filter_horizontally(horizontal, band.y0, band.y1,
                                      scratch.workers[static_cast<std::size_t>(worker)]);
     });
-    const denoise::VerticalFilterPass vertical{
-        .frame = window_of(film),
-        .guides = guides,
-        .sums = sums_of(film),
-        .outputs = outputs_of(film),
-        .shadowed = view(film.filtered_shadowed),
-        .unshadowed_samples = view(film.filtered_unshadowed_samples),
-        .settings = image.filter,
-        .isa = context.isa};
-    for_each_band(arena, film,
+    const denoise::VerticalFilterPass vertical{.frame = window_of(film),
+                                               .guides = guides,
+                                               .sums = inputs_of(frame, film, term),
+                                               .outputs = outputs_of(film, term),
+                                               .settings = frame.image.filter,
+                                               .isa = frame.context.isa};
+    for_each_band(frame.arena, film,
                   [&](const PixelRect& band, int) { denoise::filter_vertically(vertical, band); });
 }
 
@@ -118,20 +114,6 @@ void average(int passes, const parallel::Arena& arena, Film& film) {
     });
 }
 
-// --method stochastic: emission + S_N.
-void add_samples(const parallel::Arena& arena, Film& film) {
-    for_each_band(arena, film, [&](const PixelRect& band, int) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (int y = band.y0 - film.window.y0; y < band.y1 - film.window.y0; ++y) {
-                const float* emission = film.emission[c].row(y);
-                const float* shadowed = film.shadowed[c].row(y);
-                float* beauty = film.beauty[c].row(y);
-                for (int x = 0; x < film.window.width(); ++x) beauty[x] = emission[x] + shadowed[x];
-            }
-        }
-    });
-}
-
 }  // namespace
 
 int frame_margin(const ImageSettings& image) {
@@ -141,21 +123,20 @@ int frame_margin(const ImageSettings& image) {
 
 void finish_frame(const FrameInputs& frame, FrameScratch& scratch, Film& film,
                   FrameStatistics& statistics) {
-    const auto& [image, context, camera, arena, profile] = frame;
-    const bool filters = image.denoise == Denoise::kNoiseDriven && image.method == Method::kRatio;
+    const ImageSettings& image = frame.image;
     {
-        const FramePass noise(Pass::kNoise, profile, statistics);
-        prepare_scratch(film, arena.threads(), scratch);
-        if (image.passes > 1) average(image.passes, arena, film);
-        if (filters || film.wanted.contains(Aov::kE))
-            estimate_noise(image, context, arena, scratch, film);
+        const FramePass noise(Pass::kNoise, frame.profile, statistics);
+        prepare_scratch(film, frame.arena.threads(), scratch);
+        if (image.passes > 1) average(image.passes, frame.arena, film);
+        if (filters(image) || film.wanted.contains(Aov::kE))
+            for (Term& term : film.terms) estimate_noise(frame, film, scratch, term);
     }
-    const FramePass filtering(Pass::kFilter, profile, statistics);
-    if (filters)
-        filter(image, context, camera, arena, scratch, film);
-    else
-        combine_film(context, arena, film);
-    if (image.method == Method::kStochastic) add_samples(arena, film);
+    const FramePass filtering(Pass::kFilter, frame.profile, statistics);
+    for (Term& term : film.terms)
+        if (filters(image))
+            filter(frame, film, scratch, term);
+        else
+            combine(frame, film, term);
 }
 
 }  // namespace penumbra::renderer

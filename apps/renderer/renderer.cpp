@@ -34,6 +34,9 @@ ImageSettings completed(const Scene& scene, const ImageSettings& image) {
     if (all.width == 0) all.width = scene.width;
     if (all.height == 0) all.height = scene.height;
     if (all.samples_per_pixel == 0) all.samples_per_pixel = scene.samples_per_pixel;
+    const Plan& plan = plan_of(all.method);
+    if (!plan.needs_rays) all.denoise = Denoise::kNone;
+    if (!all.denoise) all.denoise = plan.denoise;
     if (!all.crop) all.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = all.width, .y1 = all.height};
     return all;
 }
@@ -91,7 +94,7 @@ void Renderer::State::evaluate_at(int frame, FrameStatistics& statistics) {
     evaluate(scene, times_of_frame(scene.animation, frame),
              {.width = image.width, .height = image.height}, view);
     camera = view.camera;
-    if (image.method != Method::kUnshadowed) occluders.update(view);
+    if (plan_of(image.method).needs_occluders) occluders.update(view);
     shadow::prepare_lights(view, lights);
     lights.accuracy = image.unshadowed;
 }
@@ -145,7 +148,7 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
     count.clock.end(Pass::kShade);
 
     s.clear_samples();
-    if (image.method != Method::kUnshadowed) trace_lights(tile, context, s, count);
+    if (plan_of(image.method).needs_rays) trace_lights(tile, context, s, count);
 
     deposit(tile, surface, to_const(s.sums()), context.pass, film);
     count.clock.end(Pass::kDeposit);

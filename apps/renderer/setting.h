@@ -15,7 +15,7 @@
 
 namespace penumbra::renderer {
 
-// One of some words.
+// One of some words. Of an optional value, unset may have none: then its text is empty.
 template <class T>
 struct Choice {
     std::string_view name;
@@ -52,6 +52,8 @@ template <class T>
 std::string text_of(const Choice<T>& setting, const T& value) {
     for (const auto& [word, meaning] : setting.words)
         if (meaning == value) return std::string(word);
+    if constexpr (requires { value.has_value(); })
+        if (!value.has_value()) return "";
     PENUMBRA_ASSERT(false, "a value of {} without a word", setting.name);
     return "";
 }
@@ -70,6 +72,7 @@ std::string text_of(const Written<T>& setting, const T& value) {
 // And back. Throws InputError.
 template <class T>
 void read_text(const Choice<T>& setting, std::string_view text, T& value) {
+    if (text.empty()) return;  // nothing was said
     for (const auto& [word, meaning] : setting.words) {
         if (word != text) continue;
         value = meaning;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/renderer/frame_statistics.h"
+#include "apps/renderer/method.h"
 #include "core/frame/tile.h"
 #include "core/light/lobe_accuracy.h"
 #include "core/parallel/tiles.h"
@@ -17,22 +18,14 @@
 
 namespace penumbra::renderer {
 
-enum class Method {
-    kRatio,       // emission + U * W, W = S_N / U_N (Heitz, Hill and McGuire 2018)
-    kStochastic,  // emission + S_N: plain Monte Carlo with the same samples
-    kUnshadowed,  // emission + U
-};
-
-enum class Denoise { kNoiseDriven, kNone };
-
 // What the pixels depend on, beside the scene.
 struct ImageSettings {
     int width = 0, height = 0;      // 0: the scene's
     std::optional<PixelRect> crop;  // inside the frame
     Method method = Method::kRatio;
-    Denoise denoise = Denoise::kNoiseDriven;
-    int samples_per_pixel = 0;  // shadow rays per light and pixel, 1 to 64; 0: the scene's
-    int passes = 1;             // --aa: jittered passes, 1 to 256
+    std::optional<Denoise> denoise;  // unset: the method's own
+    int samples_per_pixel = 0;       // shadow rays per light and pixel, 1 to 64; 0: the scene's
+    int passes = 1;                  // --aa: jittered passes, 1 to 256
     LobeAccuracy unshadowed = LobeAccuracy::kExact;  // of the glossy part of U
     denoise::NoiseSettings noise;
     denoise::FilterSettings filter;

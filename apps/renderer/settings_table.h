@@ -67,10 +67,12 @@ template <class Image, class V>
 void each_noise_setting(Image& image, const V& visit) {
     auto& noise = image.noise;
     visit(
-        Choice<Denoise>{
+        Choice<std::optional<Denoise>>{
             "denoise",
             {{"noise-driven", Denoise::kNoiseDriven}, {"none", Denoise::kNone}},
-            "How noise of the shadow is filtered: noise-driven, as wide as it is noisy, or none"},
+            "How noise is filtered: noise-driven, as wide as it is noisy, or none; of ratio the "
+            "shadow alone, of stochastic the light with its textures [noise-driven for ratio, "
+            "else none]"},
         image.denoise);
     visit(
         Choice<denoise::LineRule>{

@@ -152,6 +152,17 @@ check "statistics name the settings" bash -c "'$penumbra' render shot.json -f 1 
     grep -q '\"noise-full\": 1.5' set.json"
 check "so does the header" bash -c "'$penumbra' info set.exr | grep -q '^penumbraSettings size 160x96, .* spp 2, .* reproducible true'"
 
+# ---- methods
+default_filters() {
+    local method=$1 own=$2 other=$3
+    "$penumbra" render shot.json -f 2 -o "$method/own/x.exr" --method "$method" --progress none &&
+        "$penumbra" render shot.json -f 2 -o "$method/same/x.exr" --method "$method" --denoise "$own" --progress none &&
+        "$penumbra" render shot.json -f 2 -o "$method/other/x.exr" --method "$method" --denoise "$other" --progress none &&
+        same_frames "$method/own" "$method/same" && exits_with 1 "$penumbra" diff "$method/own/x.exr" "$method/other/x.exr"
+}
+check "the ratio is filtered unless told otherwise" default_filters ratio noise-driven none
+check "the stochastic estimate is filtered if told so" default_filters stochastic none noise-driven
+
 # ---- help
 check "--help explains every option" bash -c \
     "for o in --output --frames --size --crop --method --spp --aa --denoise --aov --compression --precision --resume \

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "denoise/combine_formula.h"
+#include "denoise/estimator.h"
 #include "tests/denoise/reference_chain.h"
 #include "tests/lanes_agree.h"
 

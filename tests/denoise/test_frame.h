@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 #include "core/frame/surface.h"
 #include "denoise/joint_bilateral.h"
@@ -121,6 +122,8 @@ struct Run {
 struct Settings {
     NoiseSettings noise;
     FilterSettings filter;
+    Estimator estimator = Estimator::kRatio;
+    NoiseOf noise_of = NoiseOf::kShadow;
 };
 
 inline void for_each_band(const TestFrame& frame, const Run& run,
@@ -130,36 +133,60 @@ inline void for_each_band(const TestFrame& frame, const Run& run,
         body({pixels.x0, y, pixels.x1, std::min(y + run.band_height, pixels.y1)});
 }
 
+inline ConstTermView term_of(const TestFrame& frame) {
+    return {.unshadowed = view(frame.unshadowed),
+            .shadowed = view(frame.shadowed),
+            .unshadowed_samples = view(frame.samples),
+            .noise = frame.noise.view()};
+}
+inline TermView term_of(TestFrame& frame) {
+    return {.unshadowed = view(frame.unshadowed),
+            .shadowed = view(frame.shadowed),
+            .unshadowed_samples = view(frame.samples),
+            .noise = frame.noise.view()};
+}
+
+inline CombineInputs inputs_of(const TestFrame& frame, Estimator estimator) {
+    return {.term = term_of(frame), .emission = view(frame.emission), .estimator = estimator};
+}
+inline CombineOutputs outputs_of(TestFrame& frame) {
+    return {.beauty = view(frame.beauty),
+            .ratio = view(frame.ratio),
+            .shadowed = view(frame.filtered_shadowed),
+            .unshadowed_samples = view(frame.filtered_samples)};
+}
+
 inline void run_noise(TestFrame& frame, const Settings& settings, const Run& run) {
-    const TestFrame& in = frame;
-    const NoisePass pass{
-        frame.window,       view(in.shadowed), view(in.samples), view(in.unshadowed),
-        frame.noise.view(), settings.noise,    run.isa};
+    const NoisePass pass{.frame = frame.window,
+                         .term = term_of(std::as_const(frame)),
+                         .noise = frame.noise.view(),
+                         .settings = settings.noise,
+                         .isa = run.isa,
+                         .noise_of = settings.noise_of};
     Scratch scratch(frame.width());
     for_each_band(frame, run, [&](const PixelRect& band) { estimate_noise(pass, band, scratch); });
 }
 
 inline FilterGuides guides_of(const TestFrame& frame) {
-    return {frame.noise.view(), frame.depth.view(), view(frame.normal), frame.camera};
+    return {.depth = frame.depth.view(), .normal = view(frame.normal), .camera = frame.camera};
 }
 
 inline void run_filter(TestFrame& frame, const Settings& settings, const Run& run) {
-    const HorizontalFilterPass rows{frame.window,        guides_of(frame), view(frame.shadowed),
-                                    view(frame.samples), settings.filter,  run.isa};
+    const HorizontalFilterPass rows{.frame = frame.window,
+                                    .guides = guides_of(frame),
+                                    .term = term_of(frame),
+                                    .settings = settings.filter,
+                                    .isa = run.isa};
     Scratch scratch(frame.width());
     for_each_band(frame, run, [&](const PixelRect& band) {
         filter_horizontally(rows, band.y0, band.y1, scratch);
     });
-    const TestFrame& in = frame;
-    const VerticalFilterPass columns{
-        frame.window,
-        guides_of(frame),
-        {view(in.shadowed), view(in.samples), view(in.unshadowed), view(in.emission)},
-        {view(frame.beauty), view(frame.ratio)},
-        view(frame.filtered_shadowed),
-        view(frame.filtered_samples),
-        settings.filter,
-        run.isa};
+    const VerticalFilterPass columns{.frame = frame.window,
+                                     .guides = guides_of(frame),
+                                     .sums = inputs_of(frame, settings.estimator),
+                                     .outputs = outputs_of(frame),
+                                     .settings = settings.filter,
+                                     .isa = run.isa};
     for_each_band(frame, run, [&](const PixelRect& band) { filter_vertically(columns, band); });
 }
 

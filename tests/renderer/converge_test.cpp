@@ -113,8 +113,8 @@ TEST_CASE("the U and U_N that are compared are those of a frame without shadows,
     int unlike = 0;
     each_pixel(film, [&](int x, int y) {
         for (std::size_t c = 0; c < 3; ++c) {
-            unlike += frame.analytic[c].at(x, y) != film.unshadowed[c].at(x, y);
-            unlike += frame.sampled[0][c].at(x, y) != film.unshadowed_samples[c].at(x, y);
+            unlike += frame.analytic[c].at(x, y) != film.total().unshadowed[c].at(x, y);
+            unlike += frame.sampled[0][c].at(x, y) != film.total().unshadowed_samples[c].at(x, y);
         }
         unlike += frame.material.at(x, y) != film.material.at(x, y);
     });

@@ -48,9 +48,9 @@ TEST_CASE("a crop is bit-equal to that cut-out of the full frame") {
             const int fy = y + cut_out.window.y0 - full.window.y0;
             for (std::size_t c = 0; c < 3; ++c) {
                 differing += cut_out.beauty[c].at(x, y) != full.beauty[c].at(fx, fy);
-                differing += cut_out.shadow[c].at(x, y) != full.shadow[c].at(fx, fy);
+                differing += cut_out.total().ratio[c].at(x, y) != full.total().ratio[c].at(fx, fy);
             }
-            differing += cut_out.noise.at(x, y) != full.noise.at(fx, fy);
+            differing += cut_out.total().noise.at(x, y) != full.total().noise.at(fx, fy);
             differing += cut_out.triangle.at(x, y) != full.triangle.at(fx, fy);
         });
         CHECK(differing == 0);

@@ -26,8 +26,8 @@ int pixels_unlike_emission_plus_u(const Film& film) {
     int unlike = 0;
     each_pixel(film, [&](int x, int y) {
         for (std::size_t c = 0; c < 3; ++c)
-            unlike +=
-                film.beauty[c].at(x, y) != film.emission[c].at(x, y) + film.unshadowed[c].at(x, y);
+            unlike += film.beauty[c].at(x, y) !=
+                      film.emission[c].at(x, y) + film.total().unshadowed[c].at(x, y);
     });
     return unlike;
 }
@@ -53,10 +53,10 @@ TEST_CASE("every pixel is finite, W lies in [0, 1] and beauty between emission a
         int not_finite = 0;
         each_pixel(film, [&](int x, int y) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float w = film.shadow[c].at(x, y);
+                const float w = film.total().ratio[c].at(x, y);
                 wrong += !(w >= 0 && w <= 1);
                 const float low = film.emission[c].at(x, y);
-                const float high = low + film.unshadowed[c].at(x, y);
+                const float high = low + film.total().unshadowed[c].at(x, y);
                 const float beauty = film.beauty[c].at(x, y);
                 wrong += !(beauty >= low && beauty <= high);
             }
