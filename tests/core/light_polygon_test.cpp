@@ -213,3 +213,34 @@ TEST_CASE("millimetres and kilometres give the same form factors") {
         }
     }
 }
+
+// Beside a light, close to its plane: the farthest vertex is up to 2000 plane distances away.
+TEST_CASE(
+    "near the light's plane the error grows with the farthest vertex over the plane distance") {
+    reference::Random random(28);
+    Errors scaled;
+    double worst = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        reference::Configuration c = reference::random_configuration(random, 1);
+        c.polygon = reference::rounded(c.polygon);
+        const PolygonShape<double> exact = shape_of<double>(c.polygon);
+        const Vec3d along = normalize(cross(exact.normal, random.direction()));
+        const double radius = exact.radius;
+        const double height = radius * std::exp(random.uniform(-7, 0));
+        c.point = reference::rounded(exact.center + along * (radius * random.uniform(0, 2)) -
+                                     exact.normal * height);
+        c.normal = float_normal(random.direction());
+        const SeenPolygon<double> seen = see_polygon(exact, c.point, c.normal);
+        if (!seen.lit) continue;
+        double farthest = 0;
+        for (int i = 0; i < exact.count; ++i)
+            farthest = std::max(farthest, length(seen.vertices[i]));
+        const double error = std::fabs(lambert(shape_of<float>(c.polygon), c.point, c.normal) -
+                                       lambert(exact, c.point, c.normal));
+        scaled.add(error / (1 + farthest / seen.distance));
+        worst = std::max(worst, error);
+    }
+    MESSAGE("largest error " << worst << "; over 1 + farthest / distance: 99th percentile "
+                             << scaled.quantile(0.99) << ", largest " << scaled.quantile(1));
+    CHECK(scaled.quantile(1) < 8e-8);
+}
