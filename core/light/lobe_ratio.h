@@ -89,10 +89,10 @@ struct RatioSums {
     F weight = F(0), plain = F(0), fresnel = F(0), square = F(0);
 };
 
-// One point of the polygon, at `p` in cosine space: of any length, but the same share of three
-// vertices for all points of a level. `area` is the determinant of the triangle's vertices.
+// One point of the polygon, at `p` in cosine space, near the length that it has as a mean of unit
+// vectors. `share` is the part of the polygon that it stands for, area times height.
 template <class F>
-void add_point(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p, const F& area,
+void add_point(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p, const F& share,
                RatioSums<F>& sums) {
     const F squared = simd::max(length_squared(p), F(1e-12f));
     Vec3<F> direction{simd::fma(-lobe.shear, p.z, p.x), lobe.scale_y * p.y, lobe.scale_z * p.z};
@@ -117,7 +117,7 @@ void add_point(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p, const F& area,
     const F miss = F(1) - simd::min(F(0.5f) * simd::sqrt(half2), F(1));
     const F miss2 = miss * miss;
     const F fresnel_weight = miss2 * miss2 * miss;
-    const F weight = area * p.z * (quotient * sharpness);
+    const F weight = share * (quotient * sharpness);
     const F weighted = weight * ratio;
     const F colored = simd::fma(F(1) - lobe.f0, fresnel_weight, lobe.f0) * ratio;
     sums.weight = sums.weight + weight;
@@ -140,15 +140,41 @@ Vec3<F> middle(const Vec3<F>& a, const Vec3<F>& b) {
     return sum * inverse_length(sum);
 }
 
+// A triangle of unit vectors as one point: its mean by height, which is where a function that is
+// linear in it has its mean under the clamped cosine.
 template <class F>
-RatioSums<F> sum_middles(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
+struct TrianglePoint {
+    Vec3<F> place;
+    F share;  // area times height
+};
+
+template <class F>
+TrianglePoint<F> triangle_point(const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c,
+                                const F& area) {
+    const F height = a.z + b.z + c.z;
+    const F inverse = F(0.25f) / simd::max(height, F(1e-18f));
+    return {fma(a, simd::fma(a.z, inverse, F(0.25f)),
+                fma(b, simd::fma(b.z, inverse, F(0.25f)), c * simd::fma(c.z, inverse, F(0.25f)))),
+            area * height};
+}
+
+// Calls visit(point) with the triangles between the polygon's inner direction and its edges.
+template <class F, class Visit>
+void for_each_triangle(const CosinePolygon<F>& polygon, const Visit& visit) {
     const Vec3<F>& center = polygon.inside;
-    RatioSums<F> sums;
     for (int i = 0; i < polygon.count; ++i) {
         const Vec3<F>& a = polygon.vertices[i];
         const Vec3<F>& b = polygon.vertices[i + 1 < polygon.count ? i + 1 : 0];
-        add_point(lobe, center + a + b, triangle_area(center, a, b, polygon.winding), sums);
+        visit(triangle_point(center, a, b, triangle_area(center, a, b, polygon.winding)));
     }
+}
+
+template <class F>
+RatioSums<F> sum_middles(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
+    RatioSums<F> sums;
+    for_each_triangle(polygon, [&](const TrianglePoint<F>& point) {
+        add_point(lobe, point.place, point.share, sums);
+    });
     return sums;
 }
 
@@ -180,8 +206,11 @@ void for_each_quarter(const CosinePolygon<F>& polygon, const Visit& visit) {
 template <class F>
 RatioSums<F> sum_quarters(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
     RatioSums<F> sums;
-    for_each_quarter(polygon, [&](const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c,
-                                  const F& area) { add_point(lobe, a + b + c, area, sums); });
+    for_each_quarter(polygon,
+                     [&](const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c, const F& area) {
+                         const TrianglePoint<F> point = triangle_point(a, b, c, area);
+                         add_point(lobe, point.place, point.share, sums);
+                     });
     return sums;
 }
 
@@ -197,9 +226,10 @@ RatioSums<F> sum_finely(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& 
                              const Vec3<F> all = (a + b + c) * F(kPlace[ring]);
                              const F more = F(1 - 3 * kPlace[ring]);
                              const F share = area * F(kWeight[ring]);
-                             add_point(lobe, fma(a, more, all), share, sums);
-                             add_point(lobe, fma(b, more, all), share, sums);
-                             add_point(lobe, fma(c, more, all), share, sums);
+                             for (const Vec3<F>& corner : {a, b, c}) {
+                                 const Vec3<F> place = fma(corner, more, all);
+                                 add_point(lobe, place, share * place.z, sums);
+                             }
                          }
                      });
     return sums;
@@ -238,11 +268,15 @@ F deviation(const CosineSpaceLobe<F>& lobe, const RatioSums<F>& sums, const Lobe
     return simd::sqrt(simd::max(mean_square - mean * mean, F(0)));
 }
 
-// At one point.
+// At the polygon's mean by height.
 template <class F>
-LobeRatio<F> ratio_at(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p) {
+LobeRatio<F> ratio_at_center(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
+    Vec3<F> center{F(0), F(0), F(0)};
+    for_each_triangle(polygon, [&](const TrianglePoint<F>& point) {
+        center = fma(point.place, point.share, center);
+    });
     RatioSums<F> sums;
-    add_point(lobe, p, F(1), sums);
+    add_point(lobe, center * inverse_length(center), F(1), sums);
     return means(sums);
 }
 
@@ -268,20 +302,31 @@ F grazing(const CosineSpaceLobe<F>& lobe) {
     return F(1) + F(0.15f) / (cosine * cosine);
 }
 
+// The error of one point per triangle falls with the square of their size: quarters leave a quarter
+// of it, which the difference tells (Richardson).
+template <class F>
+LobeRatio<F> extrapolate(const LobeRatio<F>& coarse, const LobeRatio<F>& finer) {
+    const F third = F(1.0f / 3);
+    return {simd::max(simd::fma(finer.plain - coarse.plain, third, finer.plain), F(0)),
+            simd::max(simd::fma(finer.fresnel - coarse.fresnel, third, finer.fresnel), F(0))};
+}
+
+// What may be left of a change by extrapolation.
+inline constexpr float kFinestDoubt = 0.3f;
+
 // The levels beyond the center, for the lanes with `share` > 0.
 template <class F>
 LobeRatio<F> mean_over_triangles(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon,
                                  const RatioDemand<F>& demand, const F& size, const F& share) {
     // Of large polygons few points tell less.
-    const F caution = simd::fma(F(0.5f) * size, size, F(0.3f));
+    const F caution = simd::fma(size, size, F(0.8f));
     const RatioSums<F> middles = sum_middles(lobe, polygon);
     const LobeRatio<F> coarse = means(middles);
     const F more = need_for_more(lobe, coarse, demand, caution * deviation(lobe, middles, coarse));
     if (simd::none((share > F(0)) & (more > F(0)))) return coarse;
-    const RatioSums<F> quarters = sum_quarters(lobe, polygon);
-    const LobeRatio<F> finer = means(quarters);
-    const F most = need_for_more(lobe, finer, demand,
-                                 caution * F(1.0f / 6) * deviation(lobe, quarters, finer));
+    const LobeRatio<F> finer = extrapolate(coarse, means(sum_quarters(lobe, polygon)));
+    const F change = simd::abs(with_fresnel(lobe, finer) - with_fresnel(lobe, coarse));
+    const F most = need_for_more(lobe, finer, demand, F(kFinestDoubt) * change);
     if (simd::none((share > F(0)) & (more > F(0)) & (most > F(0))))
         return blend(coarse, finer, more);
     const LobeRatio<F> finest = means(sum_finely(lobe, polygon));
@@ -291,14 +336,13 @@ LobeRatio<F> mean_over_triangles(const CosineSpaceLobe<F>& lobe, const CosinePol
 template <class F>
 LobeRatio<F> mean_lobe_ratio(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon,
                              const RatioDemand<F>& demand) {
-    const LobeRatio<F> center = ratio_at(lobe, polygon.inside);
+    const LobeRatio<F> center = ratio_at_center(lobe, polygon);
     if (demand.accuracy == LobeAccuracy::kFast) return center;
     const F size = squared_size(polygon);
     // The center may miss the lobe's peak: its mean over all directions is the albedo.
     const F mean =
         simd::max(with_fresnel(lobe, center), with_fresnel(lobe, {lobe.norm, lobe.fresnel}));
-    const F share = need_for_more(lobe, center, demand,
-                                  F(0.4f) * size * grazing(lobe) * mean);
+    const F share = need_for_more(lobe, center, demand, F(0.4f) * size * grazing(lobe) * mean);
     if (simd::none(share > F(0))) return center;
     return blend(center, mean_over_triangles(lobe, polygon, demand, size, share), share);
 }
