@@ -8,6 +8,7 @@
 
 #include "apps/renderer/frame_file.h"
 #include "apps/renderer/frame_list.h"
+#include "apps/renderer/frame_plan.h"
 #include "apps/renderer/renderer.h"
 #include "apps/renderer/settings_digest.h"
 #include "core/error.h"
@@ -15,6 +16,8 @@
 
 namespace penumbra::renderer {
 namespace {
+
+constexpr int kHistoryLength = 0;  // no pass reads another frame
 
 // One frame on its way to the disk. Films alternate, so that the next frame renders meanwhile.
 struct Writing {
@@ -38,9 +41,11 @@ class Sequence {
 
     SequenceReport run(const std::vector<int>& frames, const std::atomic<bool>& cancelled) {
         const profile::Stopwatch watch;
-        for (const int frame : frames) {
+        const auto is_done_already = [&](int frame) { return !cancelled.load() && is_done(frame); };
+        for (const PlannedFrame& planned :
+             plan_frames(frames, kHistoryLength, scene_.animation, is_done_already)) {
             if (cancelled.load()) break;
-            step(frame, cancelled);
+            step(planned, cancelled);
         }
         writing_.wait();
         report_.interrupted = cancelled.load() && report_.frames.size() < frames.size();
@@ -49,9 +54,15 @@ class Sequence {
     }
 
   private:
-    void step(int frame, const std::atomic<bool>& cancelled) {
+    [[nodiscard]] bool is_done(int frame) const {
+        return output_.resume && is_already_rendered(output_, frame, frame_digest(digest_, frame));
+    }
+
+    void step(const PlannedFrame& planned, const std::atomic<bool>& cancelled) {
+        const int frame = planned.frame;
         FrameReport report{.frame = frame, .path = expand_pattern(output_.pattern, frame)};
-        if (output_.resume && is_already_rendered(output_, frame, frame_digest(digest_, frame))) {
+        // Looked at again: others may have rendered it since the plan was made.
+        if (planned.work == FrameWork::kSkip || is_done(frame)) {
             report.outcome = FrameOutcome::kSkipped;
             writing_.wait();
             finish(report);
