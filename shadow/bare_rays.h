@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/scene/scene_view.h"
 #include "shadow/trace_isa.h"
 
 // The ray tracer by itself: Embree on the same triangles, without our packing, filters or
