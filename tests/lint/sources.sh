@@ -96,7 +96,7 @@ forbid "what differs between Embree's versions stands in shadow/embree.h" \
 door oneTBB '(tbb|oneapi)/' core/parallel/
 door OpenEXR '(OpenEXR/|Imath/|Imf|Iex)' core/image/
 door tinyobjloader 'tiny_obj_loader' core/scene/
-door "the JSON library" 'nlohmann' '(core/json|apps/cli)/'
+door "the JSON library" 'nlohmann' '(core/json/|apps/cli/|apps/bench/report_writer\.cpp$)'
 door libdeflate 'libdeflate' core/image/
 door stb '(stb/)?stb_image' core/
 door CLI11 'CLI/' apps/cli/
