@@ -8,7 +8,8 @@
 #include "shadow/trace_isa.h"
 
 // The ray tracer by itself: Embree on the same triangles, without our packing, filters or
-// instances. What our passes are measured against.
+// instances. What our passes are measured against: apps/bench and the benchmarks ask for it, no
+// pass of a frame does. It stands here because no other room may name Embree.
 
 namespace penumbra::shadow {
 
