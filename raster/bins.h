@@ -29,6 +29,13 @@ struct ClippedTriangle {
     SnappedVertex vertices[kMaxClippedTriangleVertices];
 };
 
+// A triangle that may cover pixels of the window, and the tiles its bounds touch (inclusive,
+// counted from the window's first).
+struct Candidate {
+    std::uint32_t triangle;
+    std::uint16_t x0, y0, x1, y1;
+};
+
 // Consecutive triangles of one instance, and those of them that may cover something, sorted by bin.
 struct Chunk {
     struct Part {

@@ -8,7 +8,6 @@
 #include "core/parallel/arena.h"
 #include "core/scene/scene_view.h"
 #include "raster/bins.h"
-#include "raster/classify_kernel.h"
 #include "raster/scene_tables.h"
 #include "raster/snapped.h"
 
