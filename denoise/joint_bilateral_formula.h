@@ -4,6 +4,7 @@
 
 #include "core/frame/camera.h"
 #include "core/frame/surface.h"
+#include "core/image/plane_lanes.h"
 #include "core/math/elementary.h"
 #include "core/math/vec.h"
 #include "denoise/settings.h"
@@ -96,11 +97,6 @@ struct FilterSources {
     const float* unshadowed_samples[3];  // U_N
 };
 
-template <class F>
-Vec3<F> load3(const float* const (&planes)[3], std::ptrdiff_t offset) {
-    return {simd::load<F>(planes[0] + offset), simd::load<F>(planes[1] + offset),
-            simd::load<F>(planes[2] + offset)};
-}
 template <class F>
 Guide<F> load_guide(const FilterSources& at, std::ptrdiff_t offset) {
     return {simd::load<F>(at.depth + offset), load3<F>(at.normal, offset)};

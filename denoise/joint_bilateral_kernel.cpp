@@ -1,5 +1,6 @@
 #include "denoise/joint_bilateral_kernel.h"
 
+#include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
 #include "denoise/estimator.h"
 
@@ -27,12 +28,6 @@ Light filter_pixels(const FilterSources& at, const FilterTaps& taps, F radius,
     const auto centre = denoise::filter_centre(denoise::load_guide<F>(at, 0), radius,
                                                view_direction, step, settings);
     return denoise::filtered_light(at, taps, radius, centre, settings);
-}
-
-void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& value) {
-    simd::store(planes[0].row(y) + x, value.x);
-    simd::store(planes[1].row(y) + x, value.y);
-    simd::store(planes[2].row(y) + x, value.z);
 }
 
 // ---- along rows ------------------------------------------------------------------------------

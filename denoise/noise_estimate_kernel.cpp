@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
 
 namespace penumbra::PENUMBRA_ISA {
@@ -27,11 +28,6 @@ M exists(const NoiseChunk& c, int x) {
     return (column >= I(c.existing.x0)) & (column < I(c.existing.x1));
 }
 
-Vec3<F> load3(const PlaneView3<const float>& planes, int x, int y) {
-    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
-            simd::load<F>(planes[2].row(y) + x)};
-}
-
 // W_N of a row of the chunk and its apron, and the ranges of its cells.
 void write_ratios(const NoiseChunk& c, int y) {
     const bool row_exists = y >= c.existing.y0 && y < c.existing.y1;
@@ -42,7 +38,8 @@ void write_ratios(const NoiseChunk& c, int y) {
         const int x = c.chunk.x0 - kApronX + i;
         F w = F(kNaN);
         if (row_exists && x + kLanes > c.existing.x0 && x < c.existing.x1) {
-            w = denoise::luminance_ratio(load3(c.pass->term.shadowed, x, y), load3(c.light, x, y));
+            w = denoise::luminance_ratio(load3<F>(c.pass->term.shadowed, x, y),
+                                         load3<F>(c.light, x, y));
             w = simd::select(exists(c, x), w, F(kNaN));
         }
         simd::store(ratio + i, w);
@@ -135,7 +132,7 @@ void write_noise_row(const NoiseChunk& c, int y) {
         const F ratio = simd::load<F>(c.ratio + scratch_index(c, x, y));
         const M unknown = ratio != ratio;
         if (simd::any(unknown)) {
-            const M to_fill = unknown & (luminance(load3(c.pass->term.unshadowed, x, y)) > F(0));
+            const M to_fill = unknown & (luminance(load3<F>(c.pass->term.unshadowed, x, y)) > F(0));
             e = simd::select(to_fill, F(1), e);
         }
         simd::store(noise + x, e);

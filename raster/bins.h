@@ -20,13 +20,20 @@ inline constexpr int kBlockTiles = 8;  // a coarse bin is a block of 8 x 8 tiles
 inline constexpr int kMaxFineTiles = 16;
 
 // The near plane and four sides of the guard band each add at most one vertex.
-inline constexpr int kMaxClippedVertices = 8;
+inline constexpr int kMaxClippedTriangleVertices = 8;
 
 // The part of a triangle inside near plane and guard band; convex but for snapping.
-struct ClippedPolygon {
+struct ClippedTriangle {
     std::uint32_t triangle;
-    std::int32_t vertex_count;  // 3 to kMaxClippedVertices
-    SnappedVertex vertices[kMaxClippedVertices];
+    std::int32_t vertex_count;  // 3 to kMaxClippedTriangleVertices
+    SnappedVertex vertices[kMaxClippedTriangleVertices];
+};
+
+// A triangle that may cover pixels of the window, and the tiles its bounds touch (inclusive,
+// counted from the window's first).
+struct Candidate {
+    std::uint32_t triangle;
+    std::uint16_t x0, y0, x1, y1;
 };
 
 // Consecutive triangles of one instance, and those of them that may cover something, sorted by bin.
@@ -39,7 +46,7 @@ struct Chunk {
     std::uint32_t first = 0, count = 0;     // triangles of the instance's mesh
     std::vector<std::uint32_t> references;  // triangle indices, ascending in each part
     std::vector<Part> parts;                // each bin at most once
-    std::vector<ClippedPolygon> clipped;    // ascending triangles
+    std::vector<ClippedTriangle> clipped;   // ascending triangles
 };
 
 // A grid of tiles and, after them, of blocks of tiles.

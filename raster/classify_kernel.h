@@ -1,16 +1,10 @@
 #pragma once
 
 #include "core/frame/tile.h"
+#include "raster/bins.h"
 #include "raster/scene_tables.h"
 
 namespace penumbra::raster {
-
-// A triangle that may cover pixels of the window, and the tiles its bounds touch (inclusive,
-// counted from the window's first).
-struct Candidate {
-    std::uint32_t triangle;
-    std::uint16_t x0, y0, x1, y1;
-};
 
 // Triangles [first, first + count) of an instance. Both lists have room for `count` entries and a
 // vector more, and are written in ascending order.

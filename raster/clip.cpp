@@ -11,7 +11,7 @@ constexpr Distance kPlanes[] = {&ClipDistances<float>::near_plane, &ClipDistance
                                 &ClipDistances<float>::bottom};
 
 struct Polygon {
-    Vec3f vertices[kMaxClippedVertices];
+    Vec3f vertices[kMaxClippedTriangleVertices];
     int count = 0;
     void append(const Vec3f& v) { vertices[count++] = v; }
 };
@@ -37,9 +37,9 @@ Polygon clip(const Camera& camera, const Polygon& polygon, Distance plane) {
         // Rounding can bend a clipped polygon so that it leaves a plane twice; what would not fit
         // is a sliver beyond the guard band.
         const bool crosses = here_is_inside != (distance_next >= 0);
-        if (crosses && result.count < kMaxClippedVertices)
+        if (crosses && result.count < kMaxClippedTriangleVertices)
             result.append(crossing(here, distance_here, next, distance_next));
-        if (result.count == kMaxClippedVertices) break;
+        if (result.count == kMaxClippedTriangleVertices) break;
     }
     return result;
 }
@@ -47,7 +47,7 @@ Polygon clip(const Camera& camera, const Polygon& polygon, Distance plane) {
 }  // namespace
 
 int clip_triangle(const Camera& camera, const Vec3f (&view)[3],
-                  SnappedVertex (&clipped)[kMaxClippedVertices]) {
+                  SnappedVertex (&clipped)[kMaxClippedTriangleVertices]) {
     Polygon polygon{{view[0], view[1], view[2]}, 3};
     for (const Distance plane : kPlanes) polygon = clip(camera, polygon, plane);
     if (polygon.count < 3) return 0;

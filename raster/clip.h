@@ -9,6 +9,6 @@ namespace penumbra::raster {
 // triangles that share an edge get the same points on it, whichever way they run along it: a new
 // point is always computed from the edge's lower end (by x, then y, then z) to its upper.
 int clip_triangle(const Camera& camera, const Vec3f (&view)[3],
-                  SnappedVertex (&clipped)[kMaxClippedVertices]);
+                  SnappedVertex (&clipped)[kMaxClippedTriangleVertices]);
 
 }  // namespace penumbra::raster

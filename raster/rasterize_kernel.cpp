@@ -166,7 +166,7 @@ class TileLoop {
         triangle.depth = batch_.depth(lane);
         const std::int32_t* const vertices =
             run.instance->vertices + std::size_t{triangle.index} * 3;
-        SnappedVertex corners[kMaxClippedVertices];
+        SnappedVertex corners[kMaxClippedTriangleVertices];
         int count = 3;
         const SnappedVertex* polygon = corners;
         bool is_clipped = false;

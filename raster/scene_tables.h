@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/frame/scene_view.h"
 #include "core/scene/cutout.h"
+#include "core/scene/scene_view.h"
 #include "raster/snapped.h"
 #include "raster/texture_map.h"
 

@@ -119,7 +119,7 @@ class ChunkSorter {
 // ---- triangles that cross the clip planes ----------------------------------------------------
 
 // Where the polygon's bounds lie among the window's tiles; false: nowhere.
-bool tiles_of(const ClippedPolygon& polygon, const PixelRect& window, Candidate& candidate) {
+bool tiles_of(const ClippedTriangle& polygon, const PixelRect& window, Candidate& candidate) {
     SnappedVertex low = polygon.vertices[0], high = low;
     for (int k = 1; k < polygon.vertex_count; ++k) {
         const SnappedVertex& v = polygon.vertices[k];
@@ -141,7 +141,7 @@ bool tiles_of(const ClippedPolygon& polygon, const PixelRect& window, Candidate&
 
 // The clipped polygon of a triangle and its tiles; false where nothing of it is in the window.
 bool clip_candidate(const SceneView& scene, const Geometry& geometry, const Chunk& chunk,
-                    ClippedPolygon& polygon, Candidate& candidate) {
+                    ClippedTriangle& polygon, Candidate& candidate) {
     const Instance& instance = scene.instances[chunk.instance];
     const Triangle& triangle = instance.mesh->triangles[polygon.triangle];
     Vec3f view[3];
@@ -168,7 +168,7 @@ void sort_chunk(const SceneView& scene, simd::Isa isa, const Geometry& geometry,
     const Candidate* next = scratch.candidates.data();
     const Candidate* const end = next + counts.candidates;
     for (int k = 0; k < counts.crossing; ++k) {
-        ClippedPolygon polygon{scratch.crossing[k], 0, {}};
+        ClippedTriangle polygon{scratch.crossing[k], 0, {}};
         Candidate candidate;
         if (!clip_candidate(scene, geometry, chunk, polygon, candidate)) continue;
         while (next != end && next->triangle < polygon.triangle) sorter.add(*next++, false);

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "core/frame/frame_context.h"
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/scene/scene_view.h"
 #include "raster/bins.h"
-#include "raster/classify_kernel.h"
 #include "raster/scene_tables.h"
 #include "raster/snapped.h"
 

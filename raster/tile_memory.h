@@ -39,7 +39,7 @@ struct TriangleRun {
     std::uint32_t instance_index;
     const std::uint32_t* references;
     std::int32_t count;
-    const ClippedPolygon* clipped;  // of the chunk, ascending triangles
+    const ClippedTriangle* clipped;  // of the chunk, ascending triangles
     std::int32_t clipped_count;
 };
 

@@ -3,12 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/scene/scene_view.h"
 #include "shadow/trace_isa.h"
 
 // The ray tracer by itself: Embree on the same triangles, without our packing, filters or
-// instances. What our passes are measured against.
+// instances. What our passes are measured against: apps/bench and the benchmarks ask for it, no
+// pass of a frame does. It stands here because no other room may name Embree.
 
 namespace penumbra::shadow {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/frame/scene_view.h"
 #include "core/scene/cutout.h"
+#include "core/scene/scene_view.h"
 
 // A mesh split into its opaque triangles and those with holes.
 

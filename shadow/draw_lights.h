@@ -2,6 +2,9 @@
 
 #include "shadow/lights.h"
 
+// The camera's picture of the lights; the surfaces' is raster/resolve.h. It stands here because it
+// reads the lights as shading does, and rooms do not include each other.
+
 namespace penumbra::shadow {
 
 // Draws the scene file's visible lights over a resolved tile: they have no geometry, so the

@@ -1,6 +1,7 @@
 #include "shadow/light_bounds_kernel.h"
 
 #include "core/frame/visibility.h"
+#include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
 #include "shadow/light_bounds.h"
 #include "shadow/shade_point.h"
@@ -16,11 +17,6 @@ using shadow::kBlockSize;
 constexpr float kRelativeSlack = 1e-4f;
 constexpr float kPositionSlack = 1e-6f;  // of the largest coordinate: rounding of positions
 constexpr float kHuge = 1e30f;
-
-Vec3<F> load3(const PlaneView3<const float>& planes, int x, int y) {
-    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
-            simd::load<F>(planes[2].row(y) + x)};
-}
 
 struct Range3 {
     Vec3<F> low{F(kHuge), F(kHuge), F(kHuge)};
@@ -69,14 +65,14 @@ void include_pixels(const shadow::BoundsJob& job, int x, int y, Ranges& ranges) 
     const ConstSurfaceView& surface = job.surface;
     const M hit = simd::load<U>(surface.material.row(y) + x) != U(kNothing);
     if (!simd::any(hit)) return;
-    const Vec3<F> position = load3(surface.position, x, y);
-    const Vec3<F> normal = load3(surface.normal, x, y);
+    const Vec3<F> position = load3<F>(surface.position, x, y);
+    const Vec3<F> normal = load3<F>(surface.normal, x, y);
     const Vec3<F> to_eye = broadcast<F>(job.eye) - position;
     const F inverse = F(1) / simd::sqrt(simd::max(length_squared(to_eye), F(1e-36f)));
     const F roughness = simd::load<F>(surface.roughness.row(y) + x);
     const F cos_view = simd::saturate(dot(normal, to_eye * inverse));
     const LtcEntry<F> entry = ltc_lookup(roughness, cos_view);
-    const Brdf<F> brdf = make_brdf(load3(surface.base_color, x, y), roughness,
+    const Brdf<F> brdf = make_brdf(load3<F>(surface.base_color, x, y), roughness,
                                    simd::load<F>(surface.metallic.row(y) + x),
                                    simd::load<F>(surface.dielectric_f0.row(y) + x));
     ranges.position.include(position, hit);

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/frame/frame_context.h"
-#include "core/frame/scene_view.h"
 #include "core/frame/surface.h"
 #include "core/light/lobe_accuracy.h"
 #include "core/light/polygon_shape.h"
+#include "core/scene/scene_view.h"
 
 // The lights of a frame as the analytic passes read them, and the choice of those that matter to a
 // tile.

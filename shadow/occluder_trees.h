@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/frame/scene_view.h"
+#include "core/scene/scene_view.h"
 #include "shadow/ray_stream.h"
 
 namespace penumbra::shadow {

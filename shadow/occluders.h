@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/scene/scene_view.h"
 #include "core/simd/isa.h"
 #include "shadow/ray_stream.h"
 #include "shadow/trace_isa.h"

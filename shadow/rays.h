@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/frame/frame_context.h"
-#include "core/frame/scene_view.h"
 #include "core/frame/surface.h"
 #include "core/frame/tile.h"
+#include "core/scene/scene_view.h"
 
 // Shadow rays of one sample of one light, one ray per pixel of a tile, and what each of them is
 // worth.

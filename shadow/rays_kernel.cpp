@@ -4,6 +4,7 @@
 
 #include "core/bsdf/ggx.h"
 #include "core/frame/visibility.h"
+#include "core/image/plane_lanes.h"
 #include "core/math/frame.h"
 #include "core/sampling/polygon.h"
 #include "core/simd/kernel.h"
@@ -13,17 +14,6 @@ namespace penumbra::PENUMBRA_ISA {
 namespace {
 
 using Vec = Vec3<F>;
-
-Vec load_vector(const PlaneView3<const float>& planes, int x, int y) {
-    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
-            simd::load<F>(planes[2].row(y) + x)};
-}
-
-void store_vector(Plane3<float>& planes, int x, int y, const Vec& value) {
-    simd::store(planes[0].row(y) + x, value.x);
-    simd::store(planes[1].row(y) + x, value.y);
-    simd::store(planes[2].row(y) + x, value.z);
-}
 
 // Some neighbouring pixels on the way through the stages below. A row of a tile goes through each
 // stage before the next begins: the stages are long chains of dependent operations, and short loops
@@ -53,8 +43,8 @@ template <class T, class Make>
     const ConstSurfaceView& surface = kernel.inputs->surface;
     const M hit = simd::load<U>(surface.material.row(y) + block.x) != U(kNothing);
     if (simd::none(hit)) return false;
-    block.position = load_vector(surface.position, block.x, y);
-    block.normal = load_vector(surface.normal, block.x, y);
+    block.position = load3<F>(surface.position, block.x, y);
+    block.normal = load3<F>(surface.normal, block.x, y);
     emplace(block.seen, [&] { return see_polygon(kernel.shape, block.position, block.normal); });
     block.seen.lit &= hit;
     return simd::any(block.seen.lit);
@@ -75,10 +65,10 @@ Vec2<F> random_numbers(const RayKernelInputs& kernel, int x, int y) {
 void load_material(const RayKernelInputs& kernel, int y, Block& block, const Frame<F>& frame) {
     const ConstSurfaceView& surface = kernel.inputs->surface;
     const int x = block.x;
-    block.brdf = make_brdf(load_vector(surface.base_color, x, y),
-                           simd::load<F>(surface.roughness.row(y) + x),
-                           simd::load<F>(surface.metallic.row(y) + x),
-                           simd::load<F>(surface.dielectric_f0.row(y) + x));
+    block.brdf =
+        make_brdf(load3<F>(surface.base_color, x, y), simd::load<F>(surface.roughness.row(y) + x),
+                  simd::load<F>(surface.metallic.row(y) + x),
+                  simd::load<F>(surface.dielectric_f0.row(y) + x));
     block.view = frame.to_local(normalize(broadcast<F>(kernel.inputs->eye) - block.position));
 }
 
@@ -120,7 +110,7 @@ void load_material(const RayKernelInputs& kernel, int y, Block& block, const Fra
     const Vec weight = reflected * broadcast<F>(kernel.radiance) * factor;
     const M useful = block.lit & (weight.x + weight.y + weight.z > F(0));
     const Vec nothing = {F(0), F(0), F(0)};
-    store_vector(scratch.weight, block.x, y, select(useful, weight, nothing));
+    store3(scratch.weight, block.x, y, select(useful, weight, nothing));
     return simd::bits(useful);
 }
 
@@ -132,13 +122,13 @@ void load_material(const RayKernelInputs& kernel, int y, Block& block, const Fra
     const U instance = simd::load<U>(surface.instance.row(y) + x);
     const I index = I(simd::select(instance == U(kNothing), U(0u), instance));
     const F scale = simd::gather(kernel.offset_scales, index);
-    const Vec origin = offset_origin(load_vector(surface.shadow_origin, x, y),
-                                     load_vector(surface.geometric_normal, x, y), scale,
+    const Vec origin = offset_origin(load3<F>(surface.shadow_origin, x, y),
+                                     load3<F>(surface.geometric_normal, x, y), scale,
                                      broadcast<F>(kernel.inputs->eye));
     const Vec to_vertex = broadcast<F>(kernel.shape.vertices[0]) - origin;
     const F height = simd::abs(dot(broadcast<F>(kernel.shape.normal), to_vertex));
-    store_vector(scratch.origin, x, y, origin);
-    store_vector(scratch.direction, x, y, to_vertex + block.place);
+    store3(scratch.origin, x, y, origin);
+    store3(scratch.direction, x, y, to_vertex + block.place);
     simd::store(scratch.range.row(y) + x, range_to_light(height, F(kernel.range_margin)));
 }
 

@@ -1,29 +1,19 @@
 #include "shadow/shade_kernel.h"
 
 #include "core/frame/visibility.h"
+#include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
 #include "shadow/shade_point.h"
 
 namespace penumbra::PENUMBRA_ISA {
 namespace {
 
-Vec3<F> load3(const PlaneView3<const float>& planes, int x, int y) {
-    return {simd::load<F>(planes[0].row(y) + x), simd::load<F>(planes[1].row(y) + x),
-            simd::load<F>(planes[2].row(y) + x)};
-}
-
-void store3(const PlaneView3<float>& planes, int x, int y, const Vec3<F>& v) {
-    simd::store(planes[0].row(y) + x, v.x);
-    simd::store(planes[1].row(y) + x, v.y);
-    simd::store(planes[2].row(y) + x, v.z);
-}
-
 [[gnu::flatten]] shadow::Unshadowed<F> shade_block(const shadow::ShadeJob& job, int x, int y) {
     const ConstSurfaceView& surface = job.surface;
-    const shadow::ShadingPoint<F> point{load3(surface.position, x, y),
-                                        load3(surface.normal, x, y),
+    const shadow::ShadingPoint<F> point{load3<F>(surface.position, x, y),
+                                        load3<F>(surface.normal, x, y),
                                         broadcast<F>(job.eye),
-                                        load3(surface.base_color, x, y),
+                                        load3<F>(surface.base_color, x, y),
                                         simd::load<F>(surface.roughness.row(y) + x),
                                         simd::load<F>(surface.metallic.row(y) + x),
                                         simd::load<F>(surface.dielectric_f0.row(y) + x)};

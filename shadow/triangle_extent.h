@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/arena.h"
+#include "core/scene/scene_view.h"
 
 // How large the numbers are that a point on a model's triangles is made of: what a shadow ray's
 // offset must be relative to.

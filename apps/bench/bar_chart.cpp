@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "apps/bench/charts.h"
-#include "apps/bench/svg.h"
+#include "apps/page/svg.h"
 
 namespace penumbra::bench {
 namespace {
+
+using page::Svg;
+using page::tick_distance;
 
 constexpr double kWidth = 900;
 constexpr double kLabels = 96;    // left of the bars

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
-#include "apps/bench/append.h"
 #include "apps/bench/comparison.h"
+#include "apps/page/append.h"
 
 namespace penumbra::bench {
 namespace {
+
+using page::append;
 
 std::string percent(double change) {
     return std::isfinite(change) ? fmt::format("{:+.1f} %", 100 * change) : "?";

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <span>
 
-#include "apps/bench/append.h"
 #include "apps/bench/charts.h"
 #include "apps/bench/table.h"
 #include "apps/bench/undisturbed.h"
-#include "apps/diff/html_parts.h"
+#include "apps/page/append.h"
+#include "apps/page/html.h"
 #include "core/embedded_file.h"
 
 namespace penumbra::bench {
@@ -19,7 +19,8 @@ namespace penumbra::bench {
 
 namespace {
 
-using diff::html_escaped;
+using page::append;
+using page::html_escaped;
 
 std::string threads_in_words(int threads) {
     return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
@@ -186,13 +187,9 @@ std::string comparison_notes(const Comparison& comparison) {
 }  // namespace
 
 std::string html_page(const Report& report, const Comparison* comparison) {
-    std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-        "'unsafe-inline'\">\n<meta name=\"viewport\" content=\"width=device-width\">"
-        "<title>penumbra bench</title>\n<style>\n{}</style></head>\n<body><h1>penumbra bench</h1>\n"
-        "<section>{}</section>\n",
-        embedded_files().front().content(), machine_facts(report));
+    std::string html = page::html_begin("penumbra bench", page::Content::kStill,
+                                        embedded_files().front().content());
+    append(html, "<section>{}</section>\n", machine_facts(report));
     if (comparison) html += comparison_notes(*comparison);
     html += "<main>" + scene_choice(report);
     for (std::size_t i = 0; i < report.scenes.size(); ++i)

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/image/file_reader.h"
-#include "core/scene/json_node.h"
+#include "core/json/node.h"
 
 namespace penumbra::bench {
 namespace {

@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "apps/bench/charts.h"
-#include "apps/bench/svg.h"
+#include "apps/page/svg.h"
 
 namespace penumbra::bench {
 namespace {
+
+using page::Svg;
+using page::tick_distance;
 
 constexpr double kChartWidth = 430;
 constexpr double kHeight = 300;

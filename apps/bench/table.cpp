@@ -5,11 +5,13 @@
 #include <iterator>
 #include <vector>
 
-#include "apps/bench/append.h"
 #include "apps/bench/undisturbed.h"
+#include "apps/page/append.h"
 
 namespace penumbra::bench {
 namespace {
+
+using page::append;
 
 // Three digits that matter: "0.123", "1.23", "123".
 std::string short_number(double value) {

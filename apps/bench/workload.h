@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/renderer/renderer.h"
-#include "core/frame/scene_view.h"
+#include "core/scene/scene_view.h"
 #include "shadow/bare_rays.h"
 
 // What a frame works on, kept so that the machine's limits can be measured on the same.

@@ -10,6 +10,7 @@
 
 #include "apps/diff/html_parts.h"
 #include "apps/diff/image_source.h"
+#include "apps/page/html.h"
 #include "core/error.h"
 #include "core/image/png.h"
 
@@ -63,9 +64,9 @@ std::string single_picture(const FrameOutcome& frame) {
         if (!picture) return "";
         return fmt::format(
             "<figure class=\"render\"><img alt=\"the new picture\" src=\"{}\"></figure>\n",
-            diff::html_data_uri(*picture));
+            page::html_data_uri(*picture));
     } catch (const InputError& error) {
-        return fmt::format("<p>{}</p>\n", diff::html_escaped(error.what()));
+        return fmt::format("<p>{}</p>\n", page::html_escaped(error.what()));
     }
 }
 

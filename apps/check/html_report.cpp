@@ -9,6 +9,7 @@
 #include <span>
 
 #include "apps/diff/html_parts.h"
+#include "apps/page/html.h"
 #include "core/embedded_file.h"
 #include "core/error.h"
 #include "core/image/publish.h"
@@ -20,7 +21,7 @@ namespace penumbra::check {
 
 namespace {
 
-using diff::html_escaped;
+using page::html_escaped;
 
 std::string command_box(std::string_view label, const std::string& command) {
     if (command.empty()) return "";

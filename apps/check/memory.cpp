@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/json/node.h"
 #include "core/parallel/cgroup.h"
 #include "core/parallel/proc_text.h"
 #include "core/scene/input_files.h"
-#include "core/scene/json_node.h"
 
 namespace penumbra::check {
 namespace {

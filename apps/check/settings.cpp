@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/json/node.h"
 #include "core/scene/input_files.h"
-#include "core/scene/json_node.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra::check {
 namespace {

@@ -1,4 +1,5 @@
 #include "apps/cli/bench_command.h"
+#include "apps/bench/report_writer.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include "apps/bench/report_reader.h"
 #include "apps/bench/table.h"
 #include "apps/cli/bench_compare.h"
-#include "apps/cli/bench_json.h"
 #include "apps/cli/bench_launches.h"
 #include "apps/cli/bench_options.h"
 #include "apps/cli/option_checks.h"
@@ -68,7 +68,8 @@ void write_files(const BenchOptions& options, const Results& results) {
     const bench::Report& report = results.report;
     const bench::Comparison* const comparison = results.comparison ? &*results.comparison : nullptr;
     if (!options.json.empty())
-        image::write_file_atomically(options.json, benchmark_json(report, comparison) + "\n");
+        image::write_file_atomically(options.json,
+                                     bench::benchmark_json(report, comparison) + "\n");
     if (!options.csv.empty()) image::write_file_atomically(options.csv, bench::csv(report));
     if (!options.html.empty())
         image::write_file_atomically(options.html, bench::html_page(report, comparison));

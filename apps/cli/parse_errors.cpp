@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "apps/cli/command_table.h"
-#include "core/scene/json_node.h"
+#include "core/json/node.h"
 
 namespace penumbra::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/compare/median.h"
+#include "apps/diff/median.h"
 
 namespace penumbra::diff {
 namespace {
@@ -23,7 +23,7 @@ std::vector<float> luminances(const PartReader& reader, const std::vector<int>& 
 
 std::vector<compare::Exposures> survey_exposures(const PartTiles& tiles,
                                                  const std::vector<LayerPair>& layers) {
-    std::vector<compare::StreamingMedian> medians(layers.size());
+    std::vector<StreamingMedian> medians(layers.size());
     for (const bool is_first : {true, false}) {
         tiles.for_each_band(layers, [&](const PartReader& reader, const SlotTable& table, int top,
                                         int bottom) {
@@ -37,10 +37,10 @@ std::vector<compare::Exposures> survey_exposures(const PartTiles& tiles,
             });
         });
         if (is_first)
-            for (compare::StreamingMedian& median : medians) median.choose_upper();
+            for (StreamingMedian& median : medians) median.choose_upper();
     }
     std::vector<compare::Exposures> exposures;
-    for (const compare::StreamingMedian& median : medians)
+    for (const StreamingMedian& median : medians)
         exposures.push_back(compare::choose_exposures(static_cast<double>(median.median()),
                                                       static_cast<double>(median.largest())));
     return exposures;

@@ -3,27 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <span>
 
 #include "apps/diff/html_assets.h"
-#include "core/image/png.h"
+#include "apps/page/html.h"
 
 namespace penumbra::diff {
 namespace {
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
+using page::html_data_uri;
+using page::html_escaped;
 
 std::string number(const std::optional<double>& value) {
     if (!value) return "";
@@ -70,46 +58,14 @@ std::string viewer_of(const LayerReport& layer, bool is_hidden) {
 
 }  // namespace
 
-std::string html_data_uri(const image::Picture& picture) {
-    return "data:image/png;base64," + base64(image::encode_png(picture));
-}
-
-std::string html_escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
-
 std::string html_begin(std::string_view title) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title>\n"
-        "<style>\n{1}</style></head>\n<body><h1>{0}</h1>\n",
-        html_escaped(title), html_style());
+    return page::html_begin(title, page::Content::kScriptsAndPictures, html_style());
 }
 
 std::string html_end() {
     return fmt::format("<script>\n{}</script></body></html>\n", html_script());
 }
+
 std::string html_failures(const PairReport& pair) {
     if (pair.failures.empty()) return "";
     std::string html = "<ul>";

@@ -5,14 +5,9 @@
 
 #include "apps/diff/report.h"
 
-// The pieces that reports are made of: pages that need nothing but themselves. Pictures are
-// embedded, and the page's own content security policy forbids every request.
+// The pieces that reports about pairs of images are made of; see apps/page for those of any report.
 
 namespace penumbra::diff {
-
-[[nodiscard]] std::string html_escaped(std::string_view text);
-// What the src of an <img> may be.
-[[nodiscard]] std::string html_data_uri(const image::Picture& picture);
 
 // The page up to its heading, style sheet included, and from the script to the end.
 [[nodiscard]] std::string html_begin(std::string_view title);

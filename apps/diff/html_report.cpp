@@ -5,6 +5,7 @@
 #include <span>
 
 #include "apps/diff/html_parts.h"
+#include "apps/page/html.h"
 
 namespace penumbra::diff {
 namespace {
@@ -30,8 +31,8 @@ void HtmlReport::add(const PairReport& pair) {
         .append(fmt::format("<section><h2><span class=\"{0}\">{0}</span> {1}</h2>\n"
                             "<div class=\"files\">reference {2}<br>test {3}</div>\n{4}{5}{6}"
                             "</section>\n",
-                            passed ? "passed" : "failed", html_escaped(pair.name),
-                            html_escaped(pair.reference), html_escaped(pair.test),
+                            passed ? "passed" : "failed", page::html_escaped(pair.name),
+                            page::html_escaped(pair.reference), page::html_escaped(pair.test),
                             html_failures(pair), html_metrics(pair), html_viewers(pair)));
 }
 

@@ -4,6 +4,10 @@
 #include <span>
 
 // Errors of single values: what needs no neighbours.
+//
+// The metrics stand in core although apps/diff is the only one of our programs that asks for them:
+// they are formulas of the installed library, for programs and measurements that have pictures and
+// want no report. How a comparison of files goes about them is apps/diff's alone.
 
 namespace penumbra::compare {
 

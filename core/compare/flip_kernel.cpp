@@ -1,15 +1,11 @@
 #include "core/compare/flip_kernel.h"
 
 #include "core/compare/flip_formula.h"
+#include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
 
 namespace penumbra::PENUMBRA_ISA {
 namespace {
-
-Vec3<F> load3(const float* const planes[3], int x) {
-    return {simd::load<F>(planes[0] + x), simd::load<F>(planes[1] + x),
-            simd::load<F>(planes[2] + x)};
-}
 
 F clamp_to_unit(F x) {
     return simd::min(simd::max(x, F(0)), F(1));
@@ -17,7 +13,7 @@ F clamp_to_unit(F x) {
 
 // Filtered colours can leave the display's gamut: back to it before distances are taken.
 Vec3<F> seen_colour(const compare::FlipFeatures& features, int x) {
-    const Vec3<F> linear = compare::linear_from_ycxcz(load3(features.colour, x));
+    const Vec3<F> linear = compare::linear_from_ycxcz(load3<F>(features.colour, x));
     return compare::hunt_lab_from_linear(
         Vec3<F>{clamp_to_unit(linear.x), clamp_to_unit(linear.y), clamp_to_unit(linear.z)});
 }
@@ -32,7 +28,7 @@ F magnitude(const float* const gradient[2], int x) {
 
 void flip_opponent_row(const float* const linear[3], float* const ycxcz[3], int count) {
     for (int x = 0; x < count; x += kLanes) {
-        const Vec3<F> c = compare::ycxcz_from_linear(load3(linear, x));
+        const Vec3<F> c = compare::ycxcz_from_linear(load3<F>(linear, x));
         simd::store(ycxcz[0] + x, c.x);
         simd::store(ycxcz[1] + x, c.y);
         simd::store(ycxcz[2] + x, c.z);

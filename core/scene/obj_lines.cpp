@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

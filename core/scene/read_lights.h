@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scene/json_node.h"
+#include "core/json/node.h"
 #include "core/scene/scene.h"
 
 namespace penumbra {

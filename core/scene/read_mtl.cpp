@@ -11,7 +11,7 @@
 
 #include "core/bsdf/ggx.h"
 #include "core/error.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

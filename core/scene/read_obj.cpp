@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/scene/obj_lines.h"
-#include "core/scene/text_scan.h"
 #include "core/scene/triangulate.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

@@ -4,15 +4,15 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/json/node.h"
 #include "core/parallel/arena.h"
 #include "core/scene/camera_check.h"
 #include "core/scene/frame_model.h"
-#include "core/scene/json_node.h"
 #include "core/scene/light_polygon.h"
 #include "core/scene/read_lights.h"
 #include "core/scene/read_tracks.h"
 #include "core/scene/scene_builder.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "core/scene/json_node.h"
+#include "core/json/node.h"
 #include "core/scene/track.h"
 
 // Animation tracks out of JSON objects with fields and a list `keys` of the same fields: each field

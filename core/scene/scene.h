@@ -12,7 +12,7 @@
 #include "core/scene/track.h"
 
 // A scene as it was read and checked: every index is valid, every number finite. Time enters only
-// in evaluate() (core/frame/scene_view.h). Right-handed, y up, metres; radiance in W / (sr m^2) per
+// in evaluate() (scene_view.h). Right-handed, y up, metres; radiance in W / (sr m^2) per
 // scene-linear Rec. 709 channel.
 
 namespace penumbra {

@@ -6,7 +6,7 @@
 #include "core/scene/merge_emitters.h"
 #include "core/scene/polygon_soup.h"
 #include "core/scene/read_obj.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "core/json/node.h"
 #include "core/scene/input_files.h"
-#include "core/scene/json_node.h"
 #include "core/scene/read_mtl.h"
 #include "core/scene/scene.h"
 #include "core/scene/texture_set.h"

@@ -11,7 +11,7 @@
 
 #include "apps/bench/measure.h"
 #include "apps/bench/report_reader.h"
-#include "apps/cli/bench_json.h"
+#include "apps/bench/report_writer.h"
 #include "core/image/publish.h"
 
 namespace {
@@ -54,6 +54,6 @@ int main(int argc, char** argv) {
     if (calls) settings.calls_of = {&*calls};
     const std::atomic<bool> cancelled = false;
     const bench::Report report = bench::measure(settings, {}, cancelled, nullptr);
-    image::write_file_atomically(argv[9], cli::benchmark_json(report));
+    image::write_file_atomically(argv[9], bench::benchmark_json(report));
     return 0;
 }

@@ -8,7 +8,6 @@
 #include "core/compare/error_sums.h"
 #include "core/compare/flip.h"
 #include "core/compare/flip_formula.h"
-#include "core/compare/median.h"
 #include "core/compare/ssim.h"
 #include "core/compare/transfer.h"
 #include "core/image/srgb.h"
@@ -120,32 +119,6 @@ TEST_CASE("sums of errors are their definitions") {
     CHECK(sums.relmse() == doctest::Approx((0.25 / 1.01 + 1 / 4.01) / 2));
     CHECK(sums.psnr() == doctest::Approx(-10 * std::log10(0.625)));
     CHECK(std::isinf(ErrorSums{}.psnr()));
-}
-
-TEST_CASE("the streaming median is that of sorting") {
-    Random random(5);
-    for (const std::size_t count : {1u, 2u, 3u, 1000u, 1001u}) {
-        std::vector<float> values;
-        for (std::size_t i = 0; i < count; ++i)
-            values.push_back(
-                std::ldexp(random_unit(random) + 0.1f, static_cast<int>(random.below(20)) - 10));
-        StreamingMedian median;
-        median.count_upper(values);
-        median.choose_upper();
-        median.count_lower(values);
-        std::sort(values.begin(), values.end());
-        CHECK(median.median() == values[count / 2]);
-        CHECK(median.largest() == values.back());
-    }
-}
-
-TEST_CASE("a picture that is mostly black has the median of the rest") {
-    const std::vector<float> values = {0, 0, 0, 0, 1, 2, 3};
-    StreamingMedian median;
-    median.count_upper(values);
-    median.choose_upper();
-    median.count_lower(values);
-    CHECK(median.median() == 2.0f);
 }
 
 TEST_CASE("the sRGB curve of regions is the one of the image room") {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/frame/scene_view.h"
 #include "core/scene/read_scene.h"
+#include "core/scene/scene_view.h"
 
 using namespace penumbra;
 

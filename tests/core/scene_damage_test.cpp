@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/frame/scene_view.h"
+#include "core/scene/scene_view.h"
 #include "tests/core/scene_testing.h"
 
 using namespace penumbra;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/frame/scene_view.h"
 #include "core/scene/digest.h"
 #include "core/scene/light_polygon.h"
+#include "core/scene/scene_view.h"
 #include "tests/core/scene_testing.h"
 
 using namespace penumbra;

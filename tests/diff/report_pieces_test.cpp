@@ -9,6 +9,7 @@
 #include "apps/diff/html_parts.h"
 #include "apps/diff/spool.h"
 #include "apps/diff/tile_pictures.h"
+#include "apps/page/html.h"
 
 using namespace penumbra;
 using namespace penumbra::diff;
@@ -88,10 +89,13 @@ TEST_CASE("a spool gives back what was appended and leaves nothing behind") {
 }
 
 TEST_CASE("names of files cannot become parts of a page") {
-    CHECK(html_escaped("<img src=\"x\">&") == "&lt;img src=&quot;x&quot;&gt;&amp;");
+    CHECK(page::html_escaped("<img src=\"x\">&") == "&lt;img src=&quot;x&quot;&gt;&amp;");
     CHECK(html_begin("</title><script>").find("<script>") == std::string::npos);
 }
 
 TEST_CASE("a page forbids every request") {
     CHECK(html_begin("title").find("default-src 'none'") != std::string::npos);
+    const std::string still = page::html_begin("title", page::Content::kStill, "");
+    CHECK(still.find("default-src 'none'") != std::string::npos);
+    CHECK(still.find("script-src") == std::string::npos);
 }

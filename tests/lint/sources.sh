@@ -69,6 +69,20 @@ forbid "shadow includes core alone" "$include(raster|denoise|apps|tests)/" "${sh
 forbid "denoise includes core alone" "$include(raster|shadow|apps|tests)/" "${denoise[@]}"
 forbid "apps include no tests" "${include}tests/" "${apps[@]}"
 
+# The folders of core from the ground up: each includes those before it alone.
+order=(simd math profile bsdf image json frame parallel light sampling scene compare)
+join() { local IFS='|'; echo "$*"; }
+mapfile -t ground < <(printf '%s\n' core/*.h core/*.cpp)
+forbid "what lies in core itself includes none of its folders" "${include}core/[^/\"]+/" "${ground[@]}"
+mapfile -t elsewhere < <(without "^core/([^/]+|($(join "${order[@]}"))/.*)\$" "${core[@]}")
+forbid "each folder of core has its place in their order" "" "${elsewhere[@]}"
+for i in "${!order[@]}"; do
+    above=("${order[@]:i+1}")
+    [ ${#above[@]} -eq 0 ] && break
+    mapfile -t files < <(room_files "core/${order[i]}")
+    forbid "core/${order[i]} includes no folder of core above it" "${include}core/($(join "${above[@]}"))/" "${files[@]}"
+done
+
 # door NAME INCLUDE FOLDER: a library's headers are included in that folder only.
 door() {
     local files
@@ -82,7 +96,7 @@ forbid "what differs between Embree's versions stands in shadow/embree.h" \
 door oneTBB '(tbb|oneapi)/' core/parallel/
 door OpenEXR '(OpenEXR/|Imath/|Imf|Iex)' core/image/
 door tinyobjloader 'tiny_obj_loader' core/scene/
-door "the JSON library" 'nlohmann' '(core/scene|apps/cli)/'
+door "the JSON library" 'nlohmann' '(core/json/|apps/cli/|apps/bench/report_writer\.cpp$)'
 door libdeflate 'libdeflate' core/image/
 door stb '(stb/)?stb_image' core/
 door CLI11 'CLI/' apps/cli/

@@ -9,6 +9,11 @@ cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$wo
 for file in bash-completion/completions/penumbra zsh/site-functions/_penumbra man/man1/penumbra.1; do
     [ -s "$work/prefix/share/$file" ] || { echo "share/$file is missing"; echo "0 passed, 1 failed, 0 skipped"; exit 1; }
 done
+# What an installed header includes of ours is installed.
+missing=$(cd "$work/prefix/include/penumbra" &&
+          grep -rhoE '^#include "[^"]+"' . | sort -u | sed -E 's/.*"(.*)"/\1/' |
+          while read -r header; do [ -f "$header" ] || echo "$header"; done)
+[ -z "$missing" ] || { echo "not installed: $missing"; echo "0 passed, 1 failed, 0 skipped"; exit 1; }
 if cmake -S "$source_dir" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
        -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/log" 2>&1 &&
    cmake --build "$work/build" >"$work/log" 2>&1 && "$work/build/consumer" >"$work/log" 2>&1; then

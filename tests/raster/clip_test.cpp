@@ -24,7 +24,7 @@ TEST_CASE(
         };
         const Vec3f behind = point(-3, 0.05f), ahead = point(0.2f, 3);
         const Vec3f left = point(0.2f, 3), right = point(0.2f, 3);
-        SnappedVertex a[kMaxClippedVertices], b[kMaxClippedVertices];
+        SnappedVertex a[kMaxClippedTriangleVertices], b[kMaxClippedTriangleVertices];
         const int count_a = clip_triangle(camera, {behind, ahead, left}, a);
         const int count_b = clip_triangle(camera, {ahead, behind, right}, b);
         REQUIRE(count_a == 4);

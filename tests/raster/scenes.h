@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/frame/scene_view.h"
 #include "core/parallel/tiles.h"
+#include "core/scene/scene_view.h"
 #include "raster/rasterize.h"
 #include "raster/resolve.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/scene_view.h"
+#include "core/scene/scene_view.h"
 #include "shadow/embree.h"
 
 // Which rays are blocked, according to Embree by itself with any of its instruction sets and forms

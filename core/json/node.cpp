@@ -1,11 +1,11 @@
-#include "core/scene/json_node.h"
+#include "core/json/node.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/error.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra::json {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// Small pieces for the line-based formats OBJ and MTL.
+// Small pieces for readers of text, and for messages about what they read.
 
 namespace penumbra {
 

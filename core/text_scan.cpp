@@ -1,4 +1,4 @@
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/compare/median.h"
+#include "apps/diff/median.h"
 
 #include <algorithm>
 #include <bit>
 
-namespace penumbra::compare {
+namespace penumbra::diff {
 
 StreamingMedian::StreamingMedian() : upper_(1u << 16), lower_(1u << 16) {}
 
@@ -53,4 +53,4 @@ float StreamingMedian::median() const {
     return 0;
 }
 
-}  // namespace penumbra::compare
+}  // namespace penumbra::diff

@@ -1,4 +1,4 @@
-#include "core/frame/scene_view.h"
+#include "core/scene/scene_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // Drawings inside of a page. What they look like is the style sheet's business: everything has a
 // class and nothing has a colour.
 
-namespace penumbra::bench {
+namespace penumbra::page {
 
 class Svg {
   public:
@@ -33,4 +33,4 @@ class Svg {
 // A round distance that divides 0 to `most` into 3 to 7 parts.
 [[nodiscard]] double tick_distance(double most);
 
-}  // namespace penumbra::bench
+}  // namespace penumbra::page

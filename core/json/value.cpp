@@ -1,11 +1,11 @@
-#include "core/scene/json_value.h"
+#include "core/json/value.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
 #include "core/error.h"
-#include "core/scene/text_scan.h"
+#include "core/text_scan.h"
 
 namespace penumbra::json {
 namespace {

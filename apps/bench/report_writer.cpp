@@ -1,21 +1,18 @@
-#include "apps/cli/bench_json.h"
+#include "apps/bench/report_writer.h"
 
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace penumbra::cli {
+namespace penumbra::bench {
 namespace {
 
-using bench::PassResult;
-using bench::SceneResult;
-using bench::ThreadRun;
 using nlohmann::ordered_json;
 
-ordered_json context(const bench::Report& report) {
-    const bench::Machine& machine = report.machine;
+ordered_json context(const Report& report) {
+    const Machine& machine = report.machine;
     ordered_json caches = ordered_json::array();
-    for (const bench::Machine::Cache& cache : machine.caches)
+    for (const Machine::Cache& cache : machine.caches)
         caches.push_back({{"type", cache.type},
                           {"level", cache.level},
                           {"size", cache.bytes},
@@ -65,7 +62,7 @@ ordered_json common(const Family& family, const std::string& name, const char* r
     return {{"name", name},
             {"family_index", family.index},
             {"per_family_instance_index", 0},
-            {"run_name", bench::benchmark_name(family.scene, family.run, family.pass)},
+            {"run_name", benchmark_name(family.scene, family.run, family.pass)},
             {"run_type", run_type},
             {"repetitions", family.pass.samples.size()}};
 }
@@ -87,15 +84,15 @@ void add_identity(const Family& family, ordered_json& entry) {
     entry["pass"] = family.pass.name;
     if (!family.pass.parts.empty()) entry["parts"] = family.pass.parts;
     entry["clock"] = family.pass.is_tile_pass ? "share of all threads" : "wall";
-    if (family.pass.limit == bench::LimitKind::kNone) return;
-    entry["limit"] = bench::name(family.pass.limit);
+    if (family.pass.limit == LimitKind::kNone) return;
+    entry["limit"] = name(family.pass.limit);
     if (!family.pass.limit_call.empty()) entry["limit_call"] = family.pass.limit_call;
 }
 
 ordered_json repetition(const Family& family, std::size_t index) {
-    const bench::Sample& sample = family.pass.samples[index];
+    const Sample& sample = family.pass.samples[index];
     ordered_json entry =
-        common(family, bench::benchmark_name(family.scene, family.run, family.pass), "iteration");
+        common(family, benchmark_name(family.scene, family.run, family.pass), "iteration");
     entry["repetition_index"] = index;
     entry["threads"] = family.run.threads;
     entry["iterations"] = 1;
@@ -109,9 +106,9 @@ ordered_json repetition(const Family& family, std::size_t index) {
     if (sample.limit_floor_milliseconds > 0)
         entry["limit_floor_ms"] = sample.limit_floor_milliseconds;
     if (sample.core_share > 0) entry["core_share"] = sample.core_share;
-    if (family.pass.limit != bench::LimitKind::kNone) {
+    if (family.pass.limit != LimitKind::kNone) {
         entry["limit_ms"] = sample.limit_milliseconds;
-        entry["fraction_of_limit"] = bench::fractions(family.pass)[index];
+        entry["fraction_of_limit"] = fractions(family.pass)[index];
     }
     return entry;
 }
@@ -119,28 +116,28 @@ ordered_json repetition(const Family& family, std::size_t index) {
 struct Aggregate {
     const char* name;
     const char* unit;
-    double (*of)(const bench::Summary&);
+    double (*of)(const Summary&);
 };
 constexpr std::array<Aggregate, 4> kAggregates = {{
-    {"mean", "time", [](const bench::Summary& s) { return s.mean; }},
-    {"median", "time", [](const bench::Summary& s) { return s.median; }},
-    {"stddev", "time", [](const bench::Summary& s) { return s.deviation; }},
-    {"cv", "percentage", [](const bench::Summary& s) { return s.variation(); }},
+    {"mean", "time", [](const Summary& s) { return s.mean; }},
+    {"median", "time", [](const Summary& s) { return s.median; }},
+    {"stddev", "time", [](const Summary& s) { return s.deviation; }},
+    {"cv", "percentage", [](const Summary& s) { return s.variation(); }},
 }};
 
 ordered_json aggregate(const Family& family, const Aggregate& kind) {
-    const std::string run_name = bench::benchmark_name(family.scene, family.run, family.pass);
+    const std::string run_name = benchmark_name(family.scene, family.run, family.pass);
     ordered_json entry = common(family, run_name + "_" + kind.name, "aggregate");
     entry["threads"] = family.run.threads;
     entry["aggregate_name"] = kind.name;
     entry["aggregate_unit"] = kind.unit;
     entry["iterations"] = family.pass.samples.size();
-    entry["real_time"] = kind.of(bench::summarize(bench::milliseconds(family.pass)));
-    entry["cpu_time"] = kind.of(bench::summarize(bench::thread_milliseconds(family.pass)));
+    entry["real_time"] = kind.of(summarize(milliseconds(family.pass)));
+    entry["cpu_time"] = kind.of(summarize(thread_milliseconds(family.pass)));
     entry["time_unit"] = "ms";
     add_identity(family, entry);
-    if (family.pass.limit != bench::LimitKind::kNone)
-        entry["fraction_of_limit"] = kind.of(bench::summarize(bench::fractions(family.pass)));
+    if (family.pass.limit != LimitKind::kNone)
+        entry["fraction_of_limit"] = kind.of(summarize(fractions(family.pass)));
     return entry;
 }
 
@@ -164,22 +161,22 @@ ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-ordered_json comparison_entry(const bench::Comparison& comparison) {
+ordered_json comparison_entry(const Comparison& comparison) {
     ordered_json passes = ordered_json::array();
-    for (const bench::PassComparison& pass : comparison.passes)
+    for (const PassComparison& pass : comparison.passes)
         passes.push_back({{"scene", pass.scene},
                           {"threads", pass.threads},
                           {"pass", pass.pass},
                           {"old_fraction_of_limit", pass.old_fraction},
                           {"fraction_of_limit", pass.new_fraction},
                           {"change", pass.change},
-                          {"change_against", bench::name(pass.reference)},
+                          {"change_against", name(pass.reference)},
                           {"change_low", number(pass.low)},
                           {"change_high", number(pass.high)},
                           {"probability_alone", pass.rank_probability},
                           {"probability", pass.probability},
                           {"strength", pass.strength},
-                          {"verdict", bench::name(pass.verdict)}});
+                          {"verdict", name(pass.verdict)}});
     return {{"old_launches", comparison.old_launches},
             {"launches", comparison.new_launches},
             {"differences", comparison.differences},
@@ -189,7 +186,7 @@ ordered_json comparison_entry(const bench::Comparison& comparison) {
 
 }  // namespace
 
-std::string benchmark_json(const bench::Report& report, const bench::Comparison* comparison) {
+std::string benchmark_json(const Report& report, const Comparison* comparison) {
     ordered_json root = {{"context", context(report)}, {"benchmarks", ordered_json::array()}};
     ordered_json scenes = ordered_json::array();
     ordered_json counters = ordered_json::array();
@@ -208,4 +205,4 @@ std::string benchmark_json(const bench::Report& report, const bench::Comparison*
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-}  // namespace penumbra::cli
+}  // namespace penumbra::bench

@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-namespace penumbra::bench {
+namespace penumbra::page {
 
 template <class... Args>
 void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
 }
 
-}  // namespace penumbra::bench
+}  // namespace penumbra::page

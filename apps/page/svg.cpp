@@ -1,17 +1,17 @@
-#include "apps/bench/svg.h"
+#include "apps/page/svg.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "apps/bench/append.h"
-#include "apps/diff/html_parts.h"
+#include "apps/page/append.h"
+#include "apps/page/html.h"
 
-namespace penumbra::bench {
+namespace penumbra::page {
 namespace {
 
 std::string tip_element(std::string_view tip) {
-    return tip.empty() ? "" : fmt::format("<title>{}</title>", diff::html_escaped(tip));
+    return tip.empty() ? "" : fmt::format("<title>{}</title>", html_escaped(tip));
 }
 
 }  // namespace
@@ -19,7 +19,7 @@ std::string tip_element(std::string_view tip) {
 Svg::Svg(double width, double height, std::string_view title)
     : body_(fmt::format("<svg viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
                         "role=\"img\" aria-label=\"{2}\">\n",
-                        width, height, diff::html_escaped(title))) {}
+                        width, height, html_escaped(title))) {}
 
 void Svg::line(Point from, Point to, std::string_view style) {
     append(body_, "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n",
@@ -46,7 +46,7 @@ void Svg::path(const std::vector<Point>& points, std::string_view style) {
 
 void Svg::text(Point at, std::string_view anchor, std::string_view words, std::string_view style) {
     append(body_, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n",
-           at.first, at.second, anchor, style, diff::html_escaped(words));
+           at.first, at.second, anchor, style, html_escaped(words));
 }
 
 double tick_distance(double most) {
@@ -56,4 +56,4 @@ double tick_distance(double most) {
     return power * (digits < 1.5 ? 0.25 : digits < 3 ? 0.5 : digits < 7 ? 1 : 2);
 }
 
-}  // namespace penumbra::bench
+}  // namespace penumbra::page

@@ -6,7 +6,7 @@
 
 // The exact median of more values than fit into memory, in two passes over them.
 
-namespace penumbra::compare {
+namespace penumbra::diff {
 
 // Radix selection on the bits of non-negative floats, which sort as the numbers do: the first pass
 // counts their upper halves, the second the lower halves within the median's upper half. Where the
@@ -35,4 +35,4 @@ class StreamingMedian {
     float largest_ = 0;
 };
 
-}  // namespace penumbra::compare
+}  // namespace penumbra::diff

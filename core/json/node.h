@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/json/value.h"
 #include "core/math/vec.h"
-#include "core/scene/json_value.h"
 
 // Checked access to a JSON tree: what is not as it should be becomes an InputError with the file
 // and the place, "shot.json: lights[2].radiance: expected 3 numbers, got \"white\"".
