@@ -48,6 +48,18 @@ void coverage(const TileResult& from, int y, float* row) {
     for (int x = 0; x < kTileSize; ++x) row[x] = z[x] < kDepthOfNothing ? 1.0f : 0.0f;
 }
 
+// n.v of the shading normal, which is 0 where nothing is hit.
+void facing(const TileResult& from, int y, float* row) {
+    const auto read = [&](const PlaneView3<const float>& planes, int x) {
+        return Vec3f{planes[0].at(x, y), planes[1].at(x, y), planes[2].at(x, y)};
+    };
+    for (int x = 0; x < kTileSize; ++x) {
+        const Vec3f to_eye = from.camera.eye - read(from.surface.position, x);
+        const float cosine = dot(read(from.surface.normal, x), to_eye) / length(to_eye);
+        row[x] = cosine > 0 ? std::min(cosine, 1.0f) : 0.0f;  // 0 too where the eye is the origin
+    }
+}
+
 namespace rows {
 
 using enum SampleType;
@@ -158,6 +170,13 @@ constexpr auto kTable = std::to_array<AovInfo>({
                 {"Ng.Y", of_film<&Film::geometric_normal, 1>},
                 {"Ng.Z", of_film<&Film::geometric_normal, 2>}}},
      .description = "geometric normal, world, towards the viewer"},
+    {.aov = Aov::kFacing,
+     .name = "facing",
+     .type = kHalf,
+     .nothing = 0,
+     .passes = kMean,
+     .slots = {{{"facing", RowFormula{facing}}}},
+     .description = "cosine of the shading normal and the direction to the eye, in [0,1]"},
     {.aov = Aov::kP,
      .name = "P",
      .type = kFloat,

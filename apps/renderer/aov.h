@@ -32,6 +32,7 @@ enum class Aov {
     kMetallic,
     kN,       // shading normal, world, towards the viewer
     kNg,      // geometric normal, likewise
+    kFacing,  // cosine of the shading normal and the direction to the eye
     kP,       // world position
     kZ,       // distance along the view axis
     kMotion,  // pixel now - pixel in the previous frame

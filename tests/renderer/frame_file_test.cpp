@@ -107,6 +107,35 @@ TEST_CASE("where nothing is hit every AOV has the value of its row") {
     }
 }
 
+TEST_CASE("facing is the cosine between the shading normal and the direction to the eye") {
+    const Rendered r = rendered({.width = 100, .height = 60});
+    int hits = 0;
+    double worst = 0;
+    float lowest = 1;
+    float highest = 0;
+    each_pixel(r.film, [&](int x, int y) {
+        const auto vector = [&](Aov aov) {
+            const auto at = [&](std::size_t i) {
+                return static_cast<double>(r.film.numbers(aov, i).at(x, y));
+            };
+            return Vec3d{at(0), at(1), at(2)};
+        };
+        if (r.film.depth.at(x, y) == kDepthOfNothing) return;
+        const Vec3f& eye = r.identity.camera.eye;
+        const Vec3d to_eye = Vec3d{eye.x, eye.y, eye.z} - vector(Aov::kP);
+        const double cosine = dot(vector(Aov::kN), to_eye) / std::sqrt(dot(to_eye, to_eye));
+        const float found = r.film.numbers(Aov::kFacing, 0).at(x, y);
+        worst = std::max(worst, std::abs(std::clamp(cosine, 0.0, 1.0) - found));
+        lowest = std::min(lowest, found);
+        highest = std::max(highest, found);
+        ++hits;
+    });
+    CHECK(hits > 1000);
+    CHECK(worst < 1e-6);
+    CHECK(lowest < 0.2f);
+    CHECK(highest > 0.9f);
+}
+
 TEST_CASE("over several passes edges of means are smooth, those of first passes sharp") {
     const Film film = render(box(), {.width = 100, .height = 60, .passes = 4});
     const auto count = [&](Aov aov, std::size_t channel, float low, float high) {
