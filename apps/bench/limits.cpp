@@ -1,5 +1,7 @@
 #include "apps/bench/limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,6 +35,17 @@ LoopTime timed(profile::Profile& profile, const char* name, int rounds, const Bo
 // Phases whose tasks floors are made of.
 constexpr const char* kPrimaryRaysPhase = "limit: primary rays";
 constexpr const char* kShadowRaysPhase = "limit: shadow rays";
+
+// "limit: stream of setup". Slices keep the address of their name.
+const char* phase_name(renderer::Pass pass) {
+    static const std::vector<std::string> kNames = [] {
+        std::vector<std::string> names;
+        for (const renderer::PassInfo& info : renderer::kPasses)
+            names.push_back(fmt::format("limit: {} of {}", name(info.limit), info.name));
+        return names;
+    }();
+    return kNames[static_cast<std::size_t>(pass)].c_str();
+}
 
 // Shorter ones drown in what else goes on in the machine.
 constexpr double kLeastMilliseconds = 4;
@@ -93,29 +106,18 @@ LimitCalls limit_calls(const Report& report, const std::string& scene, int threa
     return calls;
 }
 
-Demands demands(const Workload& work) {
-    constexpr std::uint64_t kFloat = 4;
-    // Positions and indices in, a reference per triangle and bin out.
-    constexpr std::uint64_t kPosition = 3 * kFloat, kIndices = 3 * kFloat, kReference = 4;
-    // Planes: U, S, U_N and emission of three channels each, coverage, depth, a normal.
-    constexpr std::uint64_t kDeposited = 17;
-    // S, U_N and U in, E out.
-    constexpr std::uint64_t kNoise = 10;
-    // Across: E, depth, normal, S and U_N in, S and U_N out. Down: the same in, with U and
-    // emission, the picture out.
-    constexpr std::uint64_t kFiltered = (5 + 6 + 6) + (5 + 6 + 6 + 3);
-    // Two lobes. A vertex: a transform (9), and its edge's dot and cross product, length and
-    // theta / sin theta (20). A pixel: two rows of 8 numbers of the table, interpolated in two
-    // directions (32).
-    constexpr std::uint64_t kPerVertex = 2 * (9 + 20), kPerPair = 32;
-    // A ray: its place on a spherical triangle (60), the BRDF with its densities (40).
-    constexpr std::uint64_t kPerRay = 100;
-    return {.setup_bytes = kPosition * work.vertices + (kIndices + kReference) * work.triangles,
-            .deposit_bytes = kDeposited * kFloat * work.pixels,
-            .noise_bytes = kNoise * kFloat * work.pixels,
-            .filter_bytes = kFiltered * kFloat * work.pixels,
-            .shade_multiply_adds = kPerVertex * work.shaded_vertices + kPerPair * work.shaded_pairs,
-            .rays_multiply_adds = kPerRay * work.shadow_rays};
+std::uint64_t demand(const renderer::PassInfo& pass, const Workload& work) {
+    const renderer::LeastWork& least = pass.least;
+    return least.per_pixel * work.pixels + least.per_vertex * work.vertices +
+           least.per_triangle * work.triangles + least.per_ray * work.shadow_rays +
+           least.per_shaded_pair * work.shaded_pairs +
+           least.per_shaded_vertex * work.shaded_vertices;
+}
+
+const LoopTime& Limits::Measured::of(const renderer::PassInfo& pass) const {
+    if (pass.limit == LimitKind::kPrimaryRays) return primary_rays;
+    if (pass.limit == LimitKind::kShadowRays) return shadow_rays;
+    return own[static_cast<std::size_t>(pass.pass)];
 }
 
 Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
@@ -127,30 +129,36 @@ Limits::Limits(const Workload& workload, const shadow::BareRays& bare,
       cancelled_(settings.cancelled),
       arena_(arena),
       profile_(profile),
-      demands_(demands(workload)),
-      scratch_(static_cast<std::size_t>(arena.threads())),
-      setup_(demands_.setup_bytes),
-      deposit_(demands_.deposit_bytes),
-      noise_(demands_.noise_bytes),
-      filter_(demands_.filter_bytes),
-      shade_{demands_.shade_multiply_adds},
-      rays_{demands_.rays_multiply_adds} {
+      scratch_(static_cast<std::size_t>(arena.threads())) {
+    make_loops(LimitKind::kArithmetic);
+    make_loops(LimitKind::kStream);
     using Stores = StreamStores;
     const LimitCalls& calls = settings.calls;
     primary_call_ =
         choose(shadow::intersect_calls(), calls.primary, [&](auto c) { return primary(c); });
     shadow_call_ = choose(shadow::occlude_calls(), calls.shadow, [&](auto c) { return shadow(c); });
+    Loop& longest = loop_of(renderer::Pass::kFilter);
     stores_ = choose(std::vector<Stores>{Stores::kThroughCaches, Stores::kAroundCaches},
-                     calls.stream, [&](Stores s) { return stream(filter_, s, "stream"); });
+                     calls.stream, [&](Stores s) { return stream(longest, s, "stream"); });
     // The first time is the first touch of the memory.
     static_cast<void>(measure_once());
     const Measured once = measure_once();
-    setup_.rounds = rounds_for(once.setup.wall_milliseconds);
-    deposit_.rounds = rounds_for(once.deposit.wall_milliseconds);
-    noise_.rounds = rounds_for(once.noise.wall_milliseconds);
-    filter_.rounds = rounds_for(once.filter.wall_milliseconds);
-    shade_.rounds = rounds_for(once.shade.wall_milliseconds);
-    rays_.rounds = rounds_for(once.rays.wall_milliseconds);
+    for (Loop& loop : loops_) loop.rounds = rounds_for(once.of(*loop.pass).wall_milliseconds);
+}
+
+void Limits::make_loops(LimitKind kind) {
+    for (const renderer::PassInfo& pass : renderer::kPasses) {
+        if (pass.limit != kind) continue;
+        const std::uint64_t least = demand(pass, work_);
+        loops_.push_back(kind == LimitKind::kStream ? Loop{&pass, 0, std::make_unique<Triad>(least)}
+                                                    : Loop{&pass, least, nullptr});
+    }
+}
+
+Limits::Loop& Limits::loop_of(renderer::Pass pass) {
+    const auto found = std::ranges::find(loops_, &renderer::info(pass), &Loop::pass);
+    PENUMBRA_ASSERT(found != loops_.end(), "no loop for {}", renderer::name(pass));
+    return *found;
 }
 
 LoopTime Limits::primary(shadow::RayCall call) {
@@ -177,12 +185,14 @@ LoopTime Limits::shadow(shadow::RayCall call) {
     return scaled(kept, work_.shadow_scale);
 }
 
-LoopTime Limits::stream(Stream& loop, StreamStores stores, const char* name) {
+LoopTime Limits::stream(Loop& loop, StreamStores stores, const char* name) {
     if (is_cancelled()) return {};
-    return timed(profile_, name, loop.rounds, [&] { loop.triad.run(arena_, stores); });
+    return timed(profile_, name, loop.rounds, [&] { loop.triad->run(arena_, stores); });
 }
 
-LoopTime Limits::arithmetic(const Arithmetic& loop, const char* name) {
+LoopTime Limits::run(Loop& loop) {
+    const char* const name = phase_name(loop.pass->pass);
+    if (loop.triad) return stream(loop, stores_, name);
     if (is_cancelled()) return {};
     return timed(profile_, name, loop.rounds,
                  [&] { multiply_adds(loop.multiply_adds, isa_, arena_); });
@@ -203,10 +213,9 @@ Limits::Measured Limits::floors(const Floors& tasks) const {
 Limits::Measured Limits::measure() {
     const Measured measured = measure_once();
     if (!least_) least_ = measured;
-    for (const auto loop : {&Measured::shade, &Measured::rays, &Measured::setup, &Measured::deposit,
-                            &Measured::noise, &Measured::filter}) {
-        const LoopTime& time = measured.*loop;
-        LoopTime& least = (*least_).*loop;
+    for (std::size_t i = 0; i < measured.own.size(); ++i) {
+        const LoopTime& time = measured.own[i];
+        LoopTime& least = least_->own[i];
         least = {std::min(least.wall_milliseconds, time.wall_milliseconds),
                  std::min(least.thread_milliseconds, time.thread_milliseconds)};
     }
@@ -214,14 +223,9 @@ Limits::Measured Limits::measure() {
 }
 
 Limits::Measured Limits::measure_once() {
-    return {.primary_rays = primary(primary_call_),
-            .shadow_rays = shadow(shadow_call_),
-            .shade = arithmetic(shade_, "limit: arithmetic of shade"),
-            .rays = arithmetic(rays_, "limit: arithmetic of rays"),
-            .setup = stream(setup_, stores_, "limit: stream of setup"),
-            .deposit = stream(deposit_, stores_, "limit: stream of deposit"),
-            .noise = stream(noise_, stores_, "limit: stream of noise"),
-            .filter = stream(filter_, stores_, "limit: stream of filter")};
+    Measured measured{.primary_rays = primary(primary_call_), .shadow_rays = shadow(shadow_call_)};
+    for (Loop& loop : loops_) measured.own[static_cast<std::size_t>(loop.pass->pass)] = run(loop);
+    return measured;
 }
 
 std::string Limits::stream_call() const {

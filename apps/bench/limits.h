@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "apps/bench/peaks.h"
 #include "apps/bench/report.h"
 #include "apps/bench/workload.h"
+#include "apps/renderer/pass_table.h"
 #include "core/profile/profile.h"
 
 // The machine's limits for one frame and one number of threads, each measured by a loop of its own.
@@ -21,12 +24,8 @@ struct LoopTime {
     double thread_milliseconds = 0;
 };
 
-// What the passes must move and compute at least; docs/bench.md explains the counts.
-struct Demands {
-    std::uint64_t setup_bytes = 0, deposit_bytes = 0, noise_bytes = 0, filter_bytes = 0;
-    std::uint64_t shade_multiply_adds = 0, rays_multiply_adds = 0;
-};
-[[nodiscard]] Demands demands(const Workload& work);
+// What a frame's pass must move or compute at least: bytes or multiply-adds.
+[[nodiscard]] std::uint64_t demand(const renderer::PassInfo& pass, const Workload& work);
 
 // How rays and bytes are handed over, by name ("stream", "around the caches"); of those that are
 // empty or unknown here the quickest is looked for. Launches that are compared must not differ in
@@ -46,7 +45,10 @@ struct LimitSettings {
 class Limits {
   public:
     struct Measured {
-        LoopTime primary_rays, shadow_rays, shade, rays, setup, deposit, noise, filter;
+        LoopTime primary_rays, shadow_rays;
+        std::array<LoopTime, renderer::kPassCount> own{};  // of streams and arithmetic, by pass
+        // The loop that bounds a pass; zeros where nothing does.
+        [[nodiscard]] const LoopTime& of(const renderer::PassInfo& pass) const;
     };
 
     // `workload`, `bare`, `arena` and `profile`, which the arena records to, must outlive it. Finds
@@ -71,18 +73,18 @@ class Limits {
     Measured measure_once();
     LoopTime primary(shadow::RayCall call);
     LoopTime shadow(shadow::RayCall call);
-    // A loop that is over in no time is run several times, until it can be measured.
-    struct Stream {
-        explicit Stream(std::uint64_t bytes) : triad(bytes) {}
-        Triad triad;
-        int rounds = 1;
-    };
-    struct Arithmetic {
+    // What must be moved (kStream) or computed (kArithmetic) for one pass. A loop that is over in
+    // no time is run several times, until it can be measured.
+    struct Loop {
+        const renderer::PassInfo* pass;
         std::uint64_t multiply_adds;
+        std::unique_ptr<Triad> triad;  // of a stream
         int rounds = 1;
     };
-    LoopTime stream(Stream& loop, StreamStores stores, const char* name);
-    LoopTime arithmetic(const Arithmetic& loop, const char* name);
+    void make_loops(LimitKind kind);
+    Loop& loop_of(renderer::Pass pass);
+    LoopTime stream(Loop& loop, StreamStores stores, const char* name);
+    LoopTime run(Loop& loop);
 
     const Workload& work_;
     const shadow::BareRays& bare_;
@@ -90,10 +92,8 @@ class Limits {
     const std::atomic<bool>* cancelled_;
     const parallel::Arena& arena_;
     profile::Profile& profile_;
-    Demands demands_;
     std::vector<shadow::RayCallScratch> scratch_;  // one per worker
-    Stream setup_, deposit_, noise_, filter_;
-    Arithmetic shade_, rays_;
+    std::vector<Loop> loops_;
     std::optional<Measured> least_;  // of all that measure() returned
     shadow::RayCall primary_call_ = shadow::RayCall::kSingle;
     shadow::RayCall shadow_call_ = shadow::RayCall::kSingle;

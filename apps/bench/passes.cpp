@@ -8,63 +8,57 @@
 namespace penumbra::bench {
 namespace {
 
-using renderer::Pass;
+using renderer::PassGroup;
+using renderer::PassGroupInfo;
+using renderer::PassInfo;
+using renderer::PassScope;
 
-std::string text(Pass pass) {
-    return std::string(renderer::name(pass));
+bool is_tile_pass(const PassInfo& pass) {
+    return pass.scope == PassScope::kTile;
 }
 
-PassResult frame_pass(Pass pass, profile::Work work, LimitKind limit) {
-    return {.name = text(pass),
-            .is_tile_pass = renderer::is_tile_pass(pass),
-            .work = work,
-            .limit = limit};
+profile::Work work_of(const PassInfo& pass, const Workload& work) {
+    return {.pixels = pass.work.pixels ? work.pixels : 0,
+            .triangles = pass.work.triangles ? work.triangles : 0,
+            .rays = pass.work.rays ? work.shadow_rays : 0,
+            .bytes = pass.limit == LimitKind::kStream ? demand(pass, work) : 0};
+}
+
+// What passes work on is the same for all of them; what they move adds up.
+profile::Work together(const profile::Work& a, const profile::Work& b) {
+    return {.pixels = std::max(a.pixels, b.pixels),
+            .triangles = std::max(a.triangles, b.triangles),
+            .rays = std::max(a.rays, b.rays),
+            .bytes = a.bytes + b.bytes};
+}
+
+PassResult group_of(const PassGroupInfo& group, const Workload& work) {
+    PassResult result{.name = std::string(group.name), .limit = group.limit};
+    for (const PassInfo& pass : renderer::kPasses) {
+        if (pass.group != group.group) continue;
+        result.parts.emplace_back(pass.name);
+        result.work = together(result.work, work_of(pass, work));
+    }
+    if (group.limit != LimitKind::kStream) result.work.bytes = 0;
+    return result;
 }
 
 std::vector<PassResult> passes(const Workload& work) {
-    const Demands least = demands(work);
-    const std::uint64_t pixels = work.pixels;
-    return {
-        frame_pass(Pass::kEvaluate, {.triangles = work.triangles}, LimitKind::kNone),
-        frame_pass(Pass::kSetup, {.triangles = work.triangles, .bytes = least.setup_bytes},
-                   LimitKind::kStream),
-        frame_pass(Pass::kRasterize, {.pixels = pixels, .triangles = work.triangles},
-                   LimitKind::kPrimaryRays),
-        frame_pass(Pass::kResolve, {.pixels = pixels}, LimitKind::kPrimaryRays),
-        frame_pass(Pass::kShade, {.pixels = pixels}, LimitKind::kArithmetic),
-        frame_pass(Pass::kRays, {.pixels = pixels, .rays = work.shadow_rays},
-                   LimitKind::kArithmetic),
-        frame_pass(Pass::kTrace, {.rays = work.shadow_rays}, LimitKind::kShadowRays),
-        frame_pass(Pass::kDeposit, {.pixels = pixels, .bytes = least.deposit_bytes},
-                   LimitKind::kStream),
-        frame_pass(Pass::kNoise, {.pixels = pixels, .bytes = least.noise_bytes},
-                   LimitKind::kStream),
-        frame_pass(Pass::kFilter, {.pixels = pixels, .bytes = least.filter_bytes},
-                   LimitKind::kStream),
-    };
-}
-
-std::vector<PassResult> groups(const Workload& work) {
-    const Demands least = demands(work);
-    const profile::Work seen = {.pixels = work.pixels, .triangles = work.triangles};
-    return {
-        {.name = "other"},
-        {.name = "visibility",
-         .parts = {text(Pass::kSetup), text(Pass::kRasterize), text(Pass::kResolve)},
-         .work = seen,
-         .limit = LimitKind::kPrimaryRays},
-        {.name = "shadow",
-         .parts = {text(Pass::kShade), text(Pass::kRays), text(Pass::kTrace)},
-         .work = {.pixels = work.pixels, .rays = work.shadow_rays},
-         .limit = LimitKind::kShadowRays},
-        {.name = "denoise",
-         .parts = {text(Pass::kNoise), text(Pass::kFilter)},
-         .work = {.pixels = work.pixels, .bytes = least.noise_bytes + least.filter_bytes},
-         .limit = LimitKind::kStream},
-        {.name = "frame",
-         .work = {.pixels = work.pixels, .triangles = work.triangles, .rays = work.shadow_rays},
-         .limit = LimitKind::kSum},
-    };
+    std::vector<PassResult> results;
+    profile::Work all;
+    for (const PassInfo& pass : renderer::kPasses) {
+        results.push_back({.name = std::string(pass.name),
+                           .is_tile_pass = is_tile_pass(pass),
+                           .work = work_of(pass, work),
+                           .limit = pass.limit});
+        all = together(all, results.back().work);
+    }
+    all.bytes = 0;
+    results.push_back({.name = "other"});
+    for (const PassGroupInfo& group : renderer::kPassGroups)
+        results.push_back(group_of(group, work));
+    results.push_back({.name = "frame", .work = all, .limit = LimitKind::kSum});
+    return results;
 }
 
 std::string call(LimitKind kind, const Limits& limits) {
@@ -89,33 +83,45 @@ double cost(const LoopTime& time, bool is_tile_pass, int threads) {
     return is_tile_pass ? time.thread_milliseconds / threads : time.wall_milliseconds;
 }
 
-double limit_of(const std::string& pass, const Limits::Measured& m, int threads) {
-    const auto tiles = [&](const LoopTime& time) { return cost(time, true, threads); };
-    const auto whole = [&](const LoopTime& time) { return cost(time, false, threads); };
-    if (pass == text(Pass::kSetup)) return whole(m.setup);
-    if (pass == text(Pass::kRasterize) || pass == text(Pass::kResolve) || pass == "visibility")
-        return tiles(m.primary_rays);
-    if (pass == text(Pass::kShade)) return tiles(m.shade);
-    if (pass == text(Pass::kRays)) return tiles(m.rays);
-    if (pass == text(Pass::kTrace) || pass == "shadow") return tiles(m.shadow_rays);
-    if (pass == text(Pass::kDeposit)) return tiles(m.deposit);
-    if (pass == text(Pass::kNoise)) return whole(m.noise);
-    if (pass == text(Pass::kFilter)) return whole(m.filter);
-    if (pass == "denoise") return whole(m.noise) + whole(m.filter);
-    if (pass == "frame")
-        return tiles(m.primary_rays) + tiles(m.shade) + tiles(m.rays) + tiles(m.shadow_rays) +
-               tiles(m.deposit) + whole(m.noise) + whole(m.filter);
-    return 0;
+double limit_of(const PassInfo& pass, const Limits::Measured& m, int threads) {
+    return cost(m.of(pass), is_tile_pass(pass), threads);
 }
 
-LoopTime time_of(Pass pass, const renderer::FrameStatistics& frame, const profile::Profile& profile,
-                 int threads) {
-    const double milliseconds = 1e3 * frame.passes[pass];
-    if (renderer::is_tile_pass(pass)) return {milliseconds / threads, milliseconds};
+double limit_of(const PassGroupInfo& group, const Limits::Measured& m, int threads) {
+    if (group.limit == LimitKind::kPrimaryRays) return cost(m.primary_rays, true, threads);
+    if (group.limit == LimitKind::kShadowRays) return cost(m.shadow_rays, true, threads);
+    double sum = 0;
+    for (const PassInfo& pass : renderer::kPasses)
+        if (pass.group == group.group) sum += limit_of(pass, m, threads);
+    return sum;
+}
+
+// Bare rays once each; they need no set-up of triangles, so that primary rays stand for all of
+// visibility.
+double limit_of_frame(const Limits::Measured& m, int threads) {
+    double sum = cost(m.primary_rays, true, threads);
+    for (const PassInfo& pass : renderer::kPasses)
+        if (pass.group != PassGroup::kVisibility) sum += limit_of(pass, m, threads);
+    return sum;
+}
+
+double limit_of(const std::string& name, const Limits::Measured& m, int threads) {
+    for (const PassInfo& pass : renderer::kPasses)
+        if (name == pass.name) return limit_of(pass, m, threads);
+    for (const PassGroupInfo& group : renderer::kPassGroups)
+        if (name == group.name) return limit_of(group, m, threads);
+    return name == "frame" ? limit_of_frame(m, threads) : 0;
+}
+
+LoopTime time_of(const PassInfo& pass, const renderer::FrameStatistics& frame,
+                 const profile::Profile& profile, int threads) {
+    const double milliseconds = 1e3 * frame.passes[pass.pass];
+    if (is_tile_pass(pass)) return {milliseconds / threads, milliseconds};
     // Outside of its loops one thread works alone.
-    const std::string_view name = renderer::name(pass);
-    const double loops = 1e-6 * static_cast<double>(total(profile, profile::Kind::kLoop, name));
-    const double tasks = 1e-6 * static_cast<double>(total(profile, profile::Kind::kTask, name));
+    const double loops =
+        1e-6 * static_cast<double>(total(profile, profile::Kind::kLoop, pass.name));
+    const double tasks =
+        1e-6 * static_cast<double>(total(profile, profile::Kind::kTask, pass.name));
     return {milliseconds, milliseconds - loops + tasks};
 }
 
@@ -132,28 +138,26 @@ LoopTime sum_of(const std::vector<std::string>& parts, const ThreadRun& run) {
 
 std::vector<std::string> all_passes() {
     std::vector<std::string> names;
-    for (int i = 0; i < renderer::kPassCount; ++i) names.push_back(text(static_cast<Pass>(i)));
+    for (const PassInfo& pass : renderer::kPasses) names.emplace_back(pass.name);
     return names;
 }
 
 // What the pass's least times make together, in milliseconds of the wall clock.
-double floor_of(Pass pass, const Floors& floors, int threads) {
-    const std::string_view name = renderer::name(pass);
-    if (renderer::is_tile_pass(pass))
-        return floors.milliseconds(profile::Kind::kPass, name) / threads;
-    return floors.milliseconds(profile::Kind::kPhase, name) +
-           floors.milliseconds(profile::Kind::kTask, name) / threads;
+double floor_of(const PassInfo& pass, const Floors& floors, int threads) {
+    if (is_tile_pass(pass)) return floors.milliseconds(profile::Kind::kPass, pass.name) / threads;
+    return floors.milliseconds(profile::Kind::kPhase, pass.name) +
+           floors.milliseconds(profile::Kind::kTask, pass.name) / threads;
 }
 
 }  // namespace
 
 void set_floors(const Floors& floors, const Limits::Measured& limits, ThreadRun& run) {
     std::map<std::string, double> of_pass;
-    for (int i = 0; i < renderer::kPassCount; ++i) {
-        const auto pass = static_cast<Pass>(i);
-        if (pass == Pass::kEvaluate) continue;  // builds what later repetitions find built
-        of_pass[text(pass)] = floor_of(pass, floors, run.threads);
-        of_pass["frame"] += of_pass[text(pass)];
+    for (const PassInfo& pass : renderer::kPasses) {
+        if (pass.pass == renderer::Pass::kEvaluate) continue;  // builds what later ones find built
+        const double floor = floor_of(pass, floors, run.threads);
+        of_pass[std::string(pass.name)] = floor;
+        of_pass["frame"] += floor;
     }
     for (PassResult& pass : run.passes) {
         double floor = of_pass[pass.name];
@@ -167,7 +171,6 @@ void set_floors(const Floors& floors, const Limits::Measured& limits, ThreadRun&
 
 ThreadRun empty_run(int threads, const Workload& work, const Limits& limits) {
     ThreadRun run{.threads = threads, .passes = passes(work)};
-    for (PassResult& group : groups(work)) run.passes.push_back(std::move(group));
     for (PassResult& pass : run.passes) pass.limit_call = call(pass.limit, limits);
     return run;
 }
@@ -181,7 +184,7 @@ void add_samples(const renderer::FrameStatistics& frame, const profile::Profile&
                                 .core_share = core_share});
     };
     for (std::size_t i = 0; i < renderer::kPassCount; ++i)
-        add(run.passes[i], time_of(static_cast<Pass>(i), frame, profile, run.threads));
+        add(run.passes[i], time_of(renderer::kPasses[i], frame, profile, run.threads));
     const LoopTime parts = sum_of(all_passes(), run);
     const double whole = 1e3 * frame.render_seconds;
     // Waiting for the last tiles, and what stands between the passes.

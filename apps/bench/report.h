@@ -13,15 +13,7 @@
 
 namespace penumbra::bench {
 
-// What bounds a pass from below. Each is measured in the same run, in turns with the frames.
-enum class LimitKind {
-    kNone,
-    kPrimaryRays,  // bare Embree finds the nearest triangle of every pixel
-    kShadowRays,   // bare Embree on exactly the frame's shadow rays
-    kStream,       // a triad a = b + s c over as many bytes as the pass must move at least
-    kArithmetic,   // fused multiply-adds, as many as the pass must execute at least
-    kSum,          // of the whole frame: its passes' limits, one after the other
-};
+using profile::LimitKind;
 [[nodiscard]] std::string name(LimitKind kind);  // "primary rays", ...
 
 // One repetition of one pass, and of its limit in the same repetition.

@@ -44,10 +44,11 @@ shadow::RayBatch primary_rays(const Camera& camera, const PixelRect& pixels, con
 }
 
 std::uint64_t count_covered(const renderer::Film& film) {
+    const Plane<float>& coverage = film.numbers(renderer::Aov::kBeauty, 3);
     std::uint64_t covered = 0;
     for (int y = film.crop.y0 - film.window.y0; y < film.crop.y1 - film.window.y0; ++y)
         for (int x = film.crop.x0 - film.window.x0; x < film.crop.x1 - film.window.x0; ++x)
-            covered += film.coverage.at(x, y) > 0;
+            covered += coverage.at(x, y) > 0;
     return covered;
 }
 

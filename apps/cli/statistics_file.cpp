@@ -16,12 +16,10 @@ using nlohmann::ordered_json;
 
 ordered_json passes(const renderer::FrameStatistics& statistics) {
     ordered_json result;
-    for (int i = 0; i < renderer::kPassCount; ++i) {
-        const auto pass = static_cast<renderer::Pass>(i);
-        result[std::string(renderer::name(pass))] = {
-            {"seconds", statistics.passes[pass]},
-            {"clock", renderer::is_tile_pass(pass) ? "all threads" : "wall"}};
-    }
+    for (const renderer::PassInfo& info : renderer::kPasses)
+        result[std::string(info.name)] = {
+            {"seconds", statistics.passes[info.pass]},
+            {"clock", info.scope == renderer::PassScope::kTile ? "all threads" : "wall"}};
     return result;
 }
 

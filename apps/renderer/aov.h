@@ -1,13 +1,24 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
+
+#include "core/frame/camera.h"
+#include "core/frame/light_sums.h"
+#include "core/frame/surface.h"
+#include "core/frame/tile.h"
 
 namespace penumbra::renderer {
 
-// What a frame's file can hold beside the picture.
+struct Film;
+
+// What a frame's file can hold beside the picture. A new one is its name here and its row of the
+// table in aov.cpp: film, tiles and file follow the table.
 enum class Aov {
     kBeauty,    // emission + sum U * W, with coverage as alpha
     kU,         // analytic unshadowed radiance
@@ -21,6 +32,7 @@ enum class Aov {
     kMetallic,
     kN,       // shading normal, world, towards the viewer
     kNg,      // geometric normal, likewise
+    kFacing,  // cosine of the shading normal and the direction to the eye
     kP,       // world position
     kZ,       // distance along the view axis
     kMotion,  // pixel now - pixel in the previous frame
@@ -29,12 +41,45 @@ enum class Aov {
 
 enum class SampleType { kHalf, kFloat, kUint };  // half becomes float with --precision float
 
+// What of several --aa passes is kept.
+enum class AovPasses { kFirst, kMean };
+
+// What a tile's passes left in scratch.
+struct TileResult {
+    const Tile& tile;
+    int pass;  // of --aa
+    const ConstSurfaceView& surface;
+    const ConstLightSumsView& sums;
+    const Camera& camera;  // with the pass's jitter
+};
+
+// Where a channel comes from. The first three are taken from each tile into planes that the film
+// has for this AOV alone; the last is what the film holds anyway.
+using SurfaceNumbers = PlaneView<const float> (*)(const ConstSurfaceView&);
+using SurfaceIds = PlaneView<const std::uint32_t> (*)(const ConstSurfaceView&);
+using RowFormula = void (*)(const TileResult&, int y, float* row);  // kTileSize numbers
+using FilmPlane = const Plane<float>& (*)(const Film&);
+using AovSource = std::variant<SurfaceNumbers, SurfaceIds, RowFormula, FilmPlane>;
+
+struct AovChannel {
+    std::string_view name;  // as the file names it
+    AovSource source;
+};
+
 struct AovInfo {
     Aov aov;
-    std::string_view name;                   // as --aov takes it
-    std::vector<std::string_view> channels;  // as the file names them
+    std::string_view name;  // as --aov takes it
     SampleType type;
+    std::optional<double> nothing;  // the value where nothing is hit, unless that is no constant
+    AovPasses passes;
+    std::array<AovChannel, 4> slots;  // those without a name are none
     std::string_view description;
+
+    [[nodiscard]] constexpr std::span<const AovChannel> channels() const {
+        std::size_t count = 0;
+        while (count < slots.size() && !slots[count].name.empty()) ++count;
+        return {slots.data(), count};
+    }
 };
 
 // All of them, in the order of the enumeration.

@@ -1,5 +1,7 @@
 #include "apps/renderer/deposit.h"
 
+#include <array>
+
 namespace penumbra::renderer {
 namespace {
 
@@ -40,12 +42,15 @@ class Place {
                 row[x] = (is_first_ ? 0.0f : row[x]) + (p[x] + q[x]);
         });
     }
-    // 1 where something is hit; a visible light has a depth, but no id.
-    void coverage(PlaneView<const float> depth, Plane<float>& to) const {
+    // What is made row by row, averaged or not.
+    void rows(const TileResult& from, RowFormula formula, AovPasses passes,
+              Plane<float>& to) const {
+        if (!is_first_ && passes == AovPasses::kFirst) return;
         each_row(to, [&](int y, float* row) {
-            const float* z = depth.row(y);
-            for (int x = 0; x < kTileSize; ++x)
-                row[x] = (is_first_ ? 0.0f : row[x]) + (z[x] < kDepthOfNothing ? 1.0f : 0.0f);
+            if (is_first_) return formula(from, y, row);
+            std::array<float, kTileSize> added;
+            formula(from, y, added.data());
+            for (std::size_t x = 0; x < added.size(); ++x) row[x] += added[x];
         });
     }
 
@@ -67,31 +72,48 @@ void scale(Plane<float>& plane, float factor, int y0, int y1) {
     }
 }
 
+// Visits where a channel comes from.
+struct Taking {
+    const TileResult& from;
+    const Place& place;
+    AovPasses passes;
+    AovPlane& to;
+
+    void operator()(SurfaceNumbers of) const {
+        const PlaneView<const float> numbers = of(from.surface);
+        if (passes == AovPasses::kMean)
+            place.sum(numbers, to.numbers);
+        else
+            place.once(numbers, to.numbers);
+    }
+    void operator()(SurfaceIds of) const { place.once(of(from.surface), to.ids); }
+    void operator()(RowFormula formula) const { place.rows(from, formula, passes, to.numbers); }
+    void operator()(FilmPlane) const {}
+};
+
+void take_aovs(const TileResult& from, const Place& place, Film& film) {
+    for (const AovInfo& aov : aov_table()) {
+        if (!film.wanted.contains(aov.aov)) continue;
+        std::vector<AovPlane>& planes = film.taken[static_cast<std::size_t>(aov.aov)];
+        for (std::size_t i = 0; i < planes.size(); ++i)
+            std::visit(Taking{from, place, aov.passes, planes[i]}, aov.slots[i].source);
+    }
+}
+
 }  // namespace
 
-void deposit(const Tile& tile, const ConstSurfaceView& surface, const ConstLightSumsView& sums,
-             int pass, Film& film) {
-    const Place place(tile, pass, film);
+void deposit(const TileResult& from, Film& film) {
+    const Place place(from.tile, from.pass, film);
+    const ConstLightSumsView& sums = from.sums;
     Term& total = film.total();
     for (std::size_t i = 0; i < 3; ++i)
         place.sum_of(sums.unshadowed_diffuse[i], sums.unshadowed_glossy[i], total.unshadowed[i]);
     place.sum3(sums.shadowed, total.shadowed);
     place.sum3(sums.unshadowed_samples, total.unshadowed_samples);
-    place.sum3(surface.emission, film.emission);
-    place.sum3(surface.base_color, film.base_color);
-    place.sum(surface.roughness, film.roughness);
-    place.sum(surface.metallic, film.metallic);
-    place.coverage(surface.depth, film.coverage);
-
-    place.once(surface.depth, film.depth);
-    place.once3(surface.normal, film.normal);
-    place.once3(surface.geometric_normal, film.geometric_normal);
-    place.once3(surface.position, film.position);
-    place.once(surface.motion_x, film.motion_x);
-    place.once(surface.motion_y, film.motion_y);
-    place.once(surface.instance, film.instance);
-    place.once(surface.triangle, film.triangle);
-    place.once(surface.material, film.material);
+    place.sum3(from.surface.emission, film.emission);
+    place.once(from.surface.depth, film.depth);
+    place.once3(from.surface.geometric_normal, film.geometric_normal);
+    take_aovs(from, place, film);
 }
 
 void scale_to_means(int passes, int y0, int y1, Film& film) {
@@ -103,9 +125,10 @@ void scale_to_means(int passes, int y0, int y1, Film& film) {
         for (Plane3<float>* sum : {&term.unshadowed, &term.shadowed, &term.unshadowed_samples})
             scale3(*sum);
     scale3(film.emission);
-    scale3(film.base_color);
-    for (Plane<float>* plane : {&film.roughness, &film.metallic, &film.coverage})
-        scale(*plane, factor, y0, y1);
+    for (const AovInfo& aov : aov_table())
+        if (aov.passes == AovPasses::kMean)
+            for (AovPlane& plane : film.taken[static_cast<std::size_t>(aov.aov)])
+                scale(plane.numbers, factor, y0, y1);
 }
 
 }  // namespace penumbra::renderer

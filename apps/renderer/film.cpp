@@ -35,7 +35,29 @@ Term make_term(const PixelRect& window, AovSet wanted) {
     return term;
 }
 
+// Planes for the channels that come from tiles.
+std::vector<AovPlane> make_planes(const PixelRect& window, const AovInfo& aov) {
+    const std::span<const AovChannel> channels = aov.channels();
+    std::vector<AovPlane> planes(channels.size());
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const AovSource& source = channels[i].source;
+        if (std::holds_alternative<SurfaceIds>(source))
+            planes[i].ids = Plane<std::uint32_t>(window.width(), window.height());
+        else if (!std::holds_alternative<FilmPlane>(source))
+            planes[i].numbers = Plane<float>(window.width(), window.height());
+    }
+    return planes;
+}
+
 }  // namespace
+
+const Plane<float>& Film::numbers(Aov aov, std::size_t channel) const {
+    const FilmPlane* const held = std::get_if<FilmPlane>(&info(aov).slots[channel].source);
+    return held ? (*held)(*this) : taken[static_cast<std::size_t>(aov)][channel].numbers;
+}
+const Plane<std::uint32_t>& Film::ids(Aov aov, std::size_t channel) const {
+    return taken[static_cast<std::size_t>(aov)][channel].ids;
+}
 
 Term& Film::total() {
     PENUMBRA_ASSERT(terms.size() == 1, "{} terms", terms.size());
@@ -55,30 +77,17 @@ void prepare_film(int width, int height, PixelRect crop, int margin, AovSet want
     if (fits) return;
 
     film = Film{.width = width, .height = height, .crop = crop, .window = window, .wanted = wanted};
-    const auto plane = [&] { return Plane<float>(window.width(), window.height()); };
     const auto plane3 = [&] { return make_plane3<float>(window.width(), window.height()); };
-    const auto ids = [&] { return Plane<std::uint32_t>(window.width(), window.height()); };
 
     film.terms.push_back(make_term(window, wanted));
     film.emission = plane3();
-    film.coverage = plane();
-    film.depth = plane();
+    film.depth = Plane<float>(window.width(), window.height());
     film.geometric_normal = plane3();
     film.beauty = plane3();
-    if (wanted.contains(Aov::kP)) film.position = plane3();
-    if (wanted.contains(Aov::kN)) film.normal = plane3();
-    if (wanted.contains(Aov::kAlbedo)) film.base_color = plane3();
-    if (wanted.contains(Aov::kRoughness)) film.roughness = plane();
-    if (wanted.contains(Aov::kMetallic)) film.metallic = plane();
-    if (wanted.contains(Aov::kMotion)) {
-        film.motion_x = plane();
-        film.motion_y = plane();
-    }
-    if (wanted.contains(Aov::kId)) {
-        film.instance = ids();
-        film.triangle = ids();
-        film.material = ids();
-    }
+    film.taken.resize(aov_table().size());
+    for (const AovInfo& aov : aov_table())
+        if (wanted.contains(aov.aov))
+            film.taken[static_cast<std::size_t>(aov.aov)] = make_planes(window, aov);
 }
 
 }  // namespace penumbra::renderer

@@ -3,11 +3,15 @@
 #include <vector>
 
 #include "apps/renderer/aov.h"
-#include "core/frame/light_sums.h"
-#include "core/frame/surface.h"
 #include "core/frame/term.h"
 
 namespace penumbra::renderer {
+
+// A channel of an AOV that the film takes from the tiles; one of the two, or neither.
+struct AovPlane {
+    Plane<float> numbers;
+    Plane<std::uint32_t> ids;
+};
 
 // The full-frame planes of one frame: what the denoiser reads, what it writes, and the AOVs that
 // were asked for. Planes cover `window`, so that window pixel (0, 0) is full-frame pixel
@@ -25,17 +29,18 @@ struct Film {
 
     // Left behind by the tile passes; sums likewise.
     Plane3<float> emission;
-    Plane<float> coverage;
-    Plane<float> depth;  // first --aa pass, as are normals, position, motion and ids
+    Plane<float> depth;  // first --aa pass, as is the normal
     Plane3<float> geometric_normal;
 
     // Left behind by the frame passes.
     Plane3<float> beauty;
 
-    // Only if wanted.
-    Plane3<float> position, normal, base_color;
-    Plane<float> roughness, metallic, motion_x, motion_y;
-    Plane<std::uint32_t> instance, triangle, material;
+    // What nobody but the file reads, only if wanted: per AOV and channel.
+    std::vector<std::vector<AovPlane>> taken;
+
+    // A wanted AOV's channel, wherever it is held.
+    [[nodiscard]] const Plane<float>& numbers(Aov aov, std::size_t channel) const;
+    [[nodiscard]] const Plane<std::uint32_t>& ids(Aov aov, std::size_t channel) const;
 
     // The only term: all light, which tiles add to and which the AOVs U, S, Un, W and E show.
     [[nodiscard]] Term& total();

@@ -70,12 +70,6 @@ class Channels {
                              .type = image::ExrType::kUint,
                              .ids = plane.view().offset(dx_, dy_)});
     }
-    void add(const AovInfo& aov, const Plane3<float>& planes) {
-        for (std::size_t i = 0; i < 3; ++i) add(aov.channels[i], aov.type, planes[i]);
-    }
-    void add(const AovInfo& aov, const Plane<float>& plane) {
-        add(aov.channels[0], aov.type, plane);
-    }
     [[nodiscard]] std::vector<image::ExrChannel> take() { return std::move(channels_); }
 
   private:
@@ -85,47 +79,11 @@ class Channels {
 };
 
 void add_aov(const AovInfo& aov, const Film& film, Channels& channels) {
-    switch (aov.aov) {
-        case Aov::kBeauty:
-            channels.add(aov, film.beauty);
-            channels.add(aov.channels[3], aov.type, film.coverage);
-            return;
-        case Aov::kU:
-            return channels.add(aov, film.total().unshadowed);
-        case Aov::kS:
-            return channels.add(aov, film.total().filtered_shadowed);
-        case Aov::kUn:
-            return channels.add(aov, film.total().filtered_unshadowed_samples);
-        case Aov::kW:
-            return channels.add(aov, film.total().ratio);
-        case Aov::kE:
-            return channels.add(aov, film.total().noise);
-        case Aov::kEmission:
-            return channels.add(aov, film.emission);
-        case Aov::kAlbedo:
-            return channels.add(aov, film.base_color);
-        case Aov::kRoughness:
-            return channels.add(aov, film.roughness);
-        case Aov::kMetallic:
-            return channels.add(aov, film.metallic);
-        case Aov::kN:
-            return channels.add(aov, film.normal);
-        case Aov::kNg:
-            return channels.add(aov, film.geometric_normal);
-        case Aov::kP:
-            return channels.add(aov, film.position);
-        case Aov::kZ:
-            return channels.add(aov, film.depth);
-        case Aov::kMotion:
-            channels.add(aov.channels[0], aov.type, film.motion_x);
-            channels.add(aov.channels[1], aov.type, film.motion_y);
-            return;
-        case Aov::kId:
-            channels.add(aov.channels[0], film.instance);
-            channels.add(aov.channels[1], film.triangle);
-            channels.add(aov.channels[2], film.material);
-            return;
-    }
+    for (std::size_t i = 0; i < aov.channels().size(); ++i)
+        if (aov.type == SampleType::kUint)
+            channels.add(aov.slots[i].name, film.ids(aov.aov, i));
+        else
+            channels.add(aov.slots[i].name, aov.type, film.numbers(aov.aov, i));
 }
 
 image::Window to_window(const PixelRect& r) {

@@ -2,29 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
+
+#include "apps/renderer/pass_table.h"
 
 namespace penumbra::renderer {
-
-// The passes of a frame, in their order. Those of the tiles are measured in seconds of all threads
-// together, the others in wall-clock seconds.
-enum class Pass {
-    kEvaluate,   // scene at the frame's time, occluders
-    kSetup,      // vertices to clip space, triangles to bins
-    kRasterize,  // tiles, from here ...
-    kResolve,
-    kShade,  // U, visible lights
-    kRays,   // shadow rays and their weights, sums
-    kTrace,
-    kDeposit,  // ... to here
-    kNoise,    // frame passes
-    kFilter,
-};
-inline constexpr int kPassCount = 10;
-[[nodiscard]] std::string_view name(Pass pass);
-[[nodiscard]] constexpr bool is_tile_pass(Pass pass) {
-    return pass >= Pass::kRasterize && pass <= Pass::kDeposit;
-}
 
 struct PassSeconds {
     std::array<double, kPassCount> seconds{};

@@ -150,7 +150,7 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
     s.clear_samples();
     if (plan_of(image.method).needs_rays) trace_lights(tile, context, s, count);
 
-    deposit(tile, surface, to_const(s.sums()), context.pass, film);
+    deposit({tile, context.pass, surface, to_const(s.sums()), view.camera}, film);
     count.clock.end(Pass::kDeposit);
 }
 

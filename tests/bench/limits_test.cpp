@@ -70,10 +70,20 @@ TEST_CASE("all calls of the bare ray tracer find the same") {
 TEST_CASE("demands grow with pixels, rays and triangles") {
     const Workload small = record_workload(scene(), {.width = 64, .height = 64}, {}, 1);
     const Workload large = record_workload(scene(), {.width = 128, .height = 128}, {}, 1);
-    CHECK(demands(large).filter_bytes == 4 * demands(small).filter_bytes);
-    CHECK(demands(large).setup_bytes == demands(small).setup_bytes);
-    CHECK(demands(large).rays_multiply_adds > 3 * demands(small).rays_multiply_adds);
-    CHECK(demands(small).noise_bytes == 64 * 64 * 40);
+    const auto of = [](renderer::Pass pass, const Workload& work) {
+        return demand(renderer::info(pass), work);
+    };
+    using renderer::Pass;
+    CHECK(of(Pass::kFilter, large) == 4 * of(Pass::kFilter, small));
+    CHECK(of(Pass::kSetup, large) == of(Pass::kSetup, small));
+    CHECK(of(Pass::kSetup, small) == 12 * small.vertices + 16 * small.triangles);
+    CHECK(of(Pass::kShade, small) == 58 * small.shaded_vertices + 32 * small.shaded_pairs);
+    CHECK(of(Pass::kRays, small) == 100 * small.shadow_rays);
+    CHECK(of(Pass::kRays, large) > 3 * of(Pass::kRays, small));
+    CHECK(of(Pass::kDeposit, small) == 64 * 64 * 68);
+    CHECK(of(Pass::kNoise, small) == 64 * 64 * 40);
+    CHECK(of(Pass::kFilter, small) == 64 * 64 * 148);
+    CHECK(of(Pass::kTrace, small) == 0);
 }
 
 TEST_CASE("every limit takes time, whatever the number of threads") {
@@ -84,10 +94,10 @@ TEST_CASE("every limit takes time, whatever the number of threads") {
     const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
     Limits limits(work, bare, {.isa = simd::best_isa()}, arena, profile);
     const Limits::Measured m = limits.measure();
-    for (const LoopTime& time :
-         {m.primary_rays, m.shadow_rays, m.shade, m.rays, m.setup, m.deposit, m.noise, m.filter}) {
-        CHECK(time.wall_milliseconds > 0);
-        CHECK(time.thread_milliseconds > 0);
+    for (const renderer::PassInfo& pass : renderer::kPasses) {
+        CAPTURE(std::string(pass.name));
+        CHECK((m.of(pass).wall_milliseconds > 0) == (pass.limit != LimitKind::kNone));
+        CHECK((m.of(pass).thread_milliseconds > 0) == (pass.limit != LimitKind::kNone));
     }
 }
 
@@ -103,9 +113,8 @@ TEST_CASE("where it is cancelled no ray is traced any more, and no limit measure
     const shadow::BareRays bare(work.view, shadow::TraceIsa::kAvx2, arena);
     Limits limits(work, bare, {.isa = simd::best_isa(), .cancelled = &cancelled}, arena, profile);
     const Limits::Measured m = limits.measure();
-    for (const LoopTime& time :
-         {m.primary_rays, m.shadow_rays, m.shade, m.rays, m.setup, m.deposit, m.noise, m.filter})
-        CHECK(time.thread_milliseconds == 0);
+    for (const renderer::PassInfo& pass : renderer::kPasses)
+        CHECK(m.of(pass).thread_milliseconds == 0);
 }
 
 TEST_CASE("a sweep doubles the threads up to what there is, which it includes") {

@@ -112,6 +112,54 @@ TEST_CASE("a report has every scene, number of threads, pass and repetition") {
     }
 }
 
+TEST_CASE("every pass of the table has its time, its slices and its row of the report") {
+    static const Scene kScene = renderer::read_builtin_scene();
+    profile::Profile profile;
+    renderer::Renderer renderer(kScene, {.width = 96, .height = 64},
+                                {.threads = 2, .profile = &profile});
+    renderer::Film film;
+    const renderer::FrameStatistics frame = renderer.render(1, {renderer::Aov::kBeauty}, film);
+    const ThreadRun& run = measured().report.scenes[0].runs[0];
+    std::size_t row = 0;
+    for (const renderer::PassInfo& pass : renderer::kPasses) {
+        CAPTURE(std::string(pass.name));
+        const bool is_tile_pass = pass.scope == renderer::PassScope::kTile;
+        CHECK(frame.passes[pass.pass] > 0);
+        CHECK(total(profile, is_tile_pass ? profile::Kind::kPass : profile::Kind::kPhase,
+                    pass.name) > 0);
+        CHECK(run.passes[row].name == pass.name);
+        CHECK(run.passes[row].is_tile_pass == is_tile_pass);
+        CHECK(run.passes[row].limit == pass.limit);
+        ++row;
+    }
+    CHECK(run.passes[row].name == "other");
+}
+
+TEST_CASE("groups and the frame tell the work of their passes") {
+    const SceneResult& scene = measured().report.scenes[0];
+    const std::uint64_t pixels = 96 * 64;
+    const auto work = [&](const char* name) { return find(scene.runs[0], name)->work; };
+    CHECK(work("visibility") == profile::Work{.pixels = pixels, .triangles = scene.triangles});
+    CHECK(work("shadow") == profile::Work{.pixels = pixels, .rays = scene.shadow_rays});
+    CHECK(work("denoise") == profile::Work{.pixels = pixels, .bytes = pixels * (40 + 148)});
+    CHECK(work("frame") ==
+          profile::Work{.pixels = pixels, .triangles = scene.triangles, .rays = scene.shadow_rays});
+    CHECK(find(scene.runs[0], "shadow")->parts ==
+          std::vector<std::string>{"shade", "rays", "trace"});
+}
+
+TEST_CASE("the frame's limit is that of bare rays, arithmetic and streams, without setup") {
+    for (const ThreadRun& run : measured().report.scenes[0].runs) {
+        double sum = 0;
+        for (const char* pass :
+             {"rasterize", "shade", "rays", "trace", "deposit", "noise", "filter"})
+            sum += find(run, pass)->samples[0].limit_milliseconds;
+        CHECK(whole_frame(run).samples[0].limit_milliseconds == doctest::Approx(sum));
+        CHECK(find(run, "visibility")->samples[0].limit_milliseconds ==
+              find(run, "resolve")->samples[0].limit_milliseconds);
+    }
+}
+
 TEST_CASE("every pass with a limit has a fraction, and all are finite") {
     for (const ThreadRun& run : measured().report.scenes[0].runs)
         for (const PassResult& pass : run.passes) {

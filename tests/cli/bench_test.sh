@@ -104,11 +104,26 @@ for name in ("evaluate", "setup", "tiles", "noise", "filter"):
     assert sum(e["name"] == name and e["cat"] == "phase" for e in slices) == 3, name
 PYTHON
 }
+# The passes stand in the report before what lies between them.
+same_passes() {
+    python3 - <<'PYTHON'
+import json
+names = list(dict.fromkeys(e["run_name"].split("/")[-1] for e in json.load(open("b.json"))["benchmarks"]))
+passes = names[:names.index("other")]
+frame = json.load(open("s.json"))["frames"][0]["passes"]
+assert list(frame) == passes, (list(frame), passes)
+slices = {(e["name"], e["cat"]) for e in json.load(open("r.json"))["traceEvents"] if e["ph"] == "X"}
+for name in passes:
+    kind = "phase" if frame[name]["clock"] == "wall" else "pass"
+    assert frame[name]["seconds"] > 0 and (name, kind) in slices, name
+PYTHON
+}
 if command -v python3 >/dev/null; then
     check "the trace of a bench is whole and nests" python3 "$folder/check_trace.py" t.json
     check "the trace of a render is, and agrees with the clock" trace_of_render
     check "with a track per thread" test "$(threads_of r.json)" -eq 2
     check "with every pass of every tile at its place" tiles_with_places
+    check "a bench, the statistics and a trace name the same passes" same_passes
 else
     skip "no python3"
 fi

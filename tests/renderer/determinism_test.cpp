@@ -51,7 +51,7 @@ TEST_CASE("a crop is bit-equal to that cut-out of the full frame") {
                 differing += cut_out.total().ratio[c].at(x, y) != full.total().ratio[c].at(fx, fy);
             }
             differing += cut_out.total().noise.at(x, y) != full.total().noise.at(fx, fy);
-            differing += cut_out.triangle.at(x, y) != full.triangle.at(fx, fy);
+            differing += cut_out.ids(Aov::kId, 1).at(x, y) != full.ids(Aov::kId, 1).at(fx, fy);
         });
         CHECK(differing == 0);
     }

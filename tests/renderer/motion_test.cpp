@@ -37,10 +37,11 @@ TEST_CASE("a visible light that moves has its own motion") {
     int lit = 0;
     double worst = 0;
     each_pixel(film, [&](int x, int y) {
-        if (film.coverage.at(x, y) == 0) return;
+        if (film.numbers(Aov::kBeauty, 3).at(x, y) == 0) return;
         ++lit;
-        worst = std::max(worst, std::abs(film.motion_x.at(x, y) - focal * 0.1 / 4));
-        worst = std::max(worst, std::abs(static_cast<double>(film.motion_y.at(x, y))));
+        worst = std::max(worst, std::abs(film.numbers(Aov::kMotion, 0).at(x, y) - focal * 0.1 / 4));
+        worst =
+            std::max(worst, std::abs(static_cast<double>(film.numbers(Aov::kMotion, 1).at(x, y))));
     });
     CHECK(lit > 500);
     CHECK(worst < 1e-4);
@@ -50,5 +51,5 @@ TEST_CASE("a frame after one whose camera has no direction renders, without moti
     const Scene scene = read_scene_text(kCameraThroughTarget, {});
     CHECK_THROWS(render(scene, {}, {}, 4));
     const Film film = render(scene, {}, {}, 5);
-    each_pixel(film, [&](int x, int y) { CHECK(film.motion_x.at(x, y) == 0); });
+    each_pixel(film, [&](int x, int y) { CHECK(film.numbers(Aov::kMotion, 0).at(x, y) == 0); });
 }

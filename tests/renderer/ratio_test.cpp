@@ -117,7 +117,7 @@ TEST_CASE("jittered passes blend coverage at silhouettes and leave the ids of th
     int pixels = 0;
     each_pixel(blended, [&](int x, int y) {
         ++pixels;
-        same_ids += blended.triangle.at(x, y) == single.triangle.at(x, y);
+        same_ids += blended.ids(Aov::kId, 1).at(x, y) == single.ids(Aov::kId, 1).at(x, y);
     });
     CHECK(same_ids == pixels);
 }

@@ -35,29 +35,18 @@ inline Film render(const Scene& scene, const ImageSettings& image,
 // Calls body(name, plane) for every plane that belongs to the film's output.
 template <class Body>
 void each_plane(const Film& f, const Body& body) {
-    const auto three = [&](const char* name, const Plane3<float>& p) {
-        for (const Plane<float>& plane : p) body(name, plane);
+    const auto numbers = [&](Aov aov, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+            body(renderer::info(aov).slots[i].name.data(), f.numbers(aov, i));
     };
-    three("beauty", f.beauty);
-    three("U", f.total().unshadowed);
-    three("S", f.total().filtered_shadowed);
-    three("Un", f.total().filtered_unshadowed_samples);
-    three("W", f.total().ratio);
-    three("emission", f.emission);
-    three("N", f.normal);
-    three("Ng", f.geometric_normal);
-    three("P", f.position);
-    three("albedo", f.base_color);
-    body("coverage", f.coverage);
-    body("E", f.total().noise);
-    body("Z", f.depth);
-    body("roughness", f.roughness);
-    body("metallic", f.metallic);
-    body("motion.X", f.motion_x);
-    body("motion.Y", f.motion_y);
-    body("id.instance", f.instance);
-    body("id.triangle", f.triangle);
-    body("id.material", f.material);
+    for (const Aov aov : {Aov::kBeauty, Aov::kU, Aov::kS, Aov::kUn, Aov::kW, Aov::kEmission,
+                          Aov::kN, Aov::kNg, Aov::kP, Aov::kAlbedo})
+        numbers(aov, 3);
+    body("A", f.numbers(Aov::kBeauty, 3));
+    for (const Aov aov : {Aov::kE, Aov::kZ, Aov::kRoughness, Aov::kMetallic}) numbers(aov, 1);
+    numbers(Aov::kMotion, 2);
+    for (std::size_t i = 0; i < 3; ++i)
+        body(renderer::info(Aov::kId).slots[i].name.data(), f.ids(Aov::kId, i));
 }
 
 // Calls body(x, y), coordinates of the film's planes, for every pixel of the crop.
