@@ -1,6 +1,9 @@
 #pragma once
 
-#include "shadow/lights.h"
+#include "core/frame/frame_context.h"
+#include "core/frame/surface.h"
+#include "core/frame/tile.h"
+#include "core/scene/scene_view.h"
 
 // The camera's picture of the lights; the surfaces' is raster/resolve.h. It stands here because it
 // reads the lights as shading does, and rooms do not include each other.
@@ -14,7 +17,7 @@ namespace penumbra::shadow {
 // colour, roughness, metallic and F0 are 0 and the ids are kNothing, so that nothing is shaded
 // there. A one-sided light is invisible from behind. Of several lights the nearest wins, at equal
 // depth the first. The motion is the camera's and the light's.
-void draw_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
-                 const Tile& tile, const SurfaceView& surface);
+void draw_lights(const SceneView& view, const FrameContext& context, const Tile& tile,
+                 const SurfaceView& surface);
 
 }  // namespace penumbra::shadow

@@ -36,20 +36,18 @@ struct Shown {
     Vec3<F> position_before{F(0), F(0), F(0)};  // in the previous frame
 };
 
-void show(const shadow::DrawnLight& light, const Camera& camera, const Vec3<F>& direction,
+template <class Shape>
+void show(const shadow::Drawn<Shape>& light, const Camera& camera, const Vec3<F>& direction,
           Shown& shown) {
-    M inside = M(true);
-    for (int i = 0; i < light.edge_count; ++i)
-        inside &= dot(broadcast<F>(light.edge_normals[i]), direction) >= F(0);
+    const M inside = covers(light.outline, direction);
     if (!simd::any(inside)) return;
-    // Directions advance by 1 along the view axis, so the ray's parameter is the depth.
-    const F depth = F(light.plane_distance) / dot(broadcast<F>(light.normal), direction);
+    const F depth = outline_depth(light.outline, direction);
     const M nearer =
         inside & (depth >= F(camera.near_distance)) & (depth * F(1 - kCoplanarBias) < shown.depth);
     const M wins = nearer & ((!shown.seen) | (depth < shown.depth));
     shown.depth = simd::select(wins, depth, shown.depth);
-    shown.radiance = select(wins, broadcast<F>(light.radiance), shown.radiance);
-    shown.normal = select(wins, broadcast<F>(light.normal), shown.normal);
+    shown.radiance = select(wins, broadcast<F>(light.emission.radiance), shown.radiance);
+    shown.normal = select(wins, broadcast<F>(light.outline.normal), shown.normal);
     const Vec3<F> position = fma(direction, depth, broadcast<F>(camera.eye));
     shown.position = select(wins, position, shown.position);
     shown.position_before = select(wins, broadcast<F>(light.previous_from_current).point(position),
@@ -90,8 +88,9 @@ void draw_lights_in_tile(const shadow::DrawJob& job) {
             const Vec3<F> direction = job.camera.direction(pixel_x, pixel_y);
             Shown shown;
             shown.depth = simd::load<F>(job.surface.depth.row(y) + x);
-            for (int i = 0; i < job.light_count; ++i)
-                show(job.lights[i], job.camera, direction, shown);
+            for (int i = 0; i < job.lights.count; ++i)
+                with_light(job.lights, static_cast<std::uint32_t>(i),
+                           [&](const auto& light) { show(light, job.camera, direction, shown); });
             if (simd::any(shown.seen)) write(job, x, y, shown);
         }
     }

@@ -2,25 +2,21 @@
 
 #include "core/frame/camera.h"
 #include "core/frame/surface.h"
-#include "core/light/clip.h"
-#include "core/math/affine.h"
+#include "core/light/light_set.h"
+#include "shadow/light_kinds.h"
 
 namespace penumbra::shadow {
 
 // A light that this tile may show, as seen from the eye.
-struct DrawnLight {
-    int edge_count;
-    Vec3f
-        edge_normals[kMaxPolygonVertices];  // a direction meets the light if no dot product is < 0
-    Vec3f normal;                           // unit, towards the viewer
-    float plane_distance;                   // normal . (point of the light - eye), < 0
-    Vec3f radiance;
+template <class Shape>
+struct Drawn {
+    LightOutline<Shape> outline;
+    Emission emission;
     Affine3f previous_from_current;
 };
 
 struct DrawJob {
-    const DrawnLight* lights;
-    int light_count;
+    PerLightView<Drawn> lights;
     Camera camera, previous_camera;
     int x0, y0;  // of the tile, pixels of the frame
     SurfaceView surface;

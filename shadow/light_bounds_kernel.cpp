@@ -3,7 +3,7 @@
 #include "core/frame/visibility.h"
 #include "core/image/plane_lanes.h"
 #include "core/simd/kernel.h"
-#include "shadow/light_bounds.h"
+#include "shadow/light_kinds.h"
 #include "shadow/shade_point.h"
 
 namespace penumbra::PENUMBRA_ISA {
@@ -140,8 +140,8 @@ Vec3<F> min3(const Vec3<F>& a, const Vec3<F>& b) {
 
 // The most of Schlick's (1 - v.h)^5 between the eye and a light, each seen from the ball as a cone:
 // v.h is the cosine of half the angle between them.
-F largest_fresnel_weight(const shadow::SurfaceBall<F>& ball, const Vec3f& eye,
-                         const PolygonShape<float>& light) {
+template <class Shape>
+F largest_fresnel_weight(const shadow::SurfaceBall<F>& ball, const Vec3f& eye, const Shape& light) {
     const Vec3<F> to_eye = broadcast<F>(eye) - ball.center;
     const Vec3<F> to_light = broadcast<F>(light.center) - ball.center;
     const F eye_distance = simd::max(length(to_eye), F(1e-18f));
@@ -158,15 +158,16 @@ F largest_fresnel_weight(const shadow::SurfaceBall<F>& ball, const Vec3f& eye,
 }
 
 // One light over as many blocks as there are lanes.
-void bound_light(const shadow::ShadedLight& light, const Vec3f& eye, const BlockBounds& bounds,
-                 int block, float* upper, float* lower) {
+template <class Shape>
+void bound_light(const Lit<Shape>& light, const Vec3f& eye, const BlockBounds& bounds, int block,
+                 float* upper, float* lower) {
     const F radius = simd::load<F>(bounds.radius + block);
     const M used = radius >= F(0);
     const shadow::SurfaceBall<F> ball{load_blocks(bounds.center, block), radius,
                                       load_blocks(bounds.normal_center, block),
                                       simd::load<F>(bounds.normal_radius + block)};
-    const auto form = shadow::bound_form_factor(ball, light.shape);
-    const Vec3<F> radiance = broadcast<F>(light.radiance);
+    const auto form = bound_form_factor(ball, light.shape);
+    const Vec3<F> radiance = broadcast<F>(light.emission.radiance);
     const F weight = largest_fresnel_weight(ball, eye, light.shape);
     const Vec3<F> fresnel =
         fma(load_blocks(bounds.f0, block), F(1) - weight, Vec3<F>{weight, weight, weight});
@@ -186,10 +187,12 @@ void bound_light(const shadow::ShadedLight& light, const Vec3f& eye, const Block
 void bound_lights(const shadow::BoundsJob& job) {
     BlockBounds bounds;
     for (int block = 0; block < kBlocks; ++block) bound_block(job, block, bounds);
-    for (int i = 0; i < job.light_count; ++i)
-        for (int block = 0; block < kBlocks; block += kLanes)
-            bound_light(job.lights[i], job.eye, bounds, block, job.upper + i * kBlocks,
-                        job.lower + i * kBlocks);
+    for (int i = 0; i < job.lights.count; ++i)
+        with_light(job.lights, static_cast<std::uint32_t>(i), [&](const auto& light) {
+            for (int block = 0; block < kBlocks; block += kLanes)
+                bound_light(light, job.eye, bounds, block, job.upper + i * kBlocks,
+                            job.lower + i * kBlocks);
+        });
 }
 
 }  // namespace penumbra::PENUMBRA_ISA

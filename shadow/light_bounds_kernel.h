@@ -1,7 +1,8 @@
 #pragma once
 
 #include "core/frame/surface.h"
-#include "shadow/lights.h"
+#include "core/frame/tile.h"
+#include "core/light/light_set.h"
 
 // Bounds of lights over the surface blocks of a tile, for the culling.
 
@@ -22,11 +23,10 @@ struct alignas(64) BlockBounds {
 };
 
 struct BoundsJob {
-    const ShadedLight* lights;
-    int light_count;
+    LightSetView lights;
     Vec3f eye;
     ConstSurfaceView surface;
-    // light_count x kBlocks: luminance of U at any hit pixel of the block, at most and at least.
+    // lights.count x kBlocks: luminance of U at any hit pixel of the block, at most and at least.
     float* upper;
     float* lower;
 };

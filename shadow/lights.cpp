@@ -42,21 +42,9 @@ bool try_to_cull(const float* upper, const float* lower, double tolerance, Block
 
 }  // namespace
 
-void prepare_lights(const SceneView& view, LightSet& set) {
-    set.lights.clear();
-    for (const PolygonLight& light : view.lights) {
-        ShadedLight& shaded = set.lights.emplace_back();
-        if (!(light.area > 0)) continue;  // collapsed by its transform: no vertices, no light
-        shaded.shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
-        shaded.radiance = light.radiance;
-        shaded.previous_from_current = light.previous_from_current;
-        shaded.visible = light.visible;
-    }
-}
-
-void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
+void cull_lights(const SceneView& view, const FrameContext& context,
                  const ConstSurfaceView& surface, float tolerance, TileLights& tile) {
-    const std::size_t count = set.lights.size();
+    const std::size_t count = view.lights.size();
     tile.kept_.resize(count);
     std::iota(tile.kept_.begin(), tile.kept_.end(), 0u);
     if (count <= kFewLights || !(tolerance > 0)) return;
@@ -64,8 +52,7 @@ void cull_lights(const LightSet& set, const SceneView& view, const FrameContext&
     tile.upper_.resize(count * kBlocks);
     tile.lower_.resize(count * kBlocks);
     simd::pick(context.isa, &avx2::bound_lights,
-               &avx512::bound_lights)({.lights = set.lights.data(),
-                                       .light_count = static_cast<int>(count),
+               &avx512::bound_lights)({.lights = view.lights.view(),
                                        .eye = view.camera.eye,
                                        .surface = surface,
                                        .upper = tile.upper_.data(),

@@ -6,32 +6,11 @@
 
 #include "core/frame/frame_context.h"
 #include "core/frame/surface.h"
-#include "core/light/lobe_accuracy.h"
-#include "core/light/polygon_shape.h"
 #include "core/scene/scene_view.h"
 
-// The lights of a frame as the analytic passes read them, and the choice of those that matter to a
-// tile.
+// The choice of the lights that matter to a tile.
 
 namespace penumbra::shadow {
-
-static_assert(kMaxPolygonVertices == kMaxLightVertices);
-
-struct ShadedLight {
-    PolygonShape<float> shape;
-    Vec3f radiance;
-    Affine3f previous_from_current;  // see PolygonLight
-    bool visible = false;            // drawn by draw_lights
-};
-
-// One entry per light of SceneView::lights, in the same order.
-struct LightSet {
-    std::vector<ShadedLight> lights;
-    LobeAccuracy accuracy = LobeAccuracy::kExact;  // of their glossy U
-};
-
-// Once per frame.
-void prepare_lights(const SceneView& view, LightSet& set);
 
 // One worker's choice of lights for a tile. Memory is kept from tile to tile.
 class TileLights {
@@ -40,7 +19,7 @@ class TileLights {
     [[nodiscard]] std::span<const std::uint32_t> kept() const { return kept_; }
 
   private:
-    friend void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
+    friend void cull_lights(const SceneView& view, const FrameContext& context,
                             const ConstSurfaceView& surface, float tolerance, TileLights& tile);
     std::vector<std::uint32_t> kept_, order_;
     std::vector<float> upper_, lower_, rank_;
@@ -57,7 +36,7 @@ class TileLights {
 // block. Where such a lower bound is zero (metals, black surfaces, blocks that the kept lights
 // reach only in part) only lights that reach nothing are left out. A function of the tile's surface
 // and the lights alone.
-void cull_lights(const LightSet& set, const SceneView& view, const FrameContext& context,
+void cull_lights(const SceneView& view, const FrameContext& context,
                  const ConstSurfaceView& surface, float tolerance, TileLights& tile);
 
 }  // namespace penumbra::shadow

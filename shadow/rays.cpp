@@ -8,28 +8,22 @@
 namespace penumbra::shadow {
 namespace {
 
-// Rays end this many times the light's radius above its plane, at least: faces of one light lie in
-// its plane up to the tolerance with which they were merged, and must not shadow it.
-constexpr float kMarginPerRadius = 1e-5f;
-
 Plane<float> tile_plane() {
     return Plane<float>(kTileSize, kTileSize);
 }
 
 RayKernelInputs kernel_inputs(const RayInputs& inputs, const LightSample& sample) {
-    const PolygonLight& light = *sample.light;
     RayKernelInputs kernel;
     kernel.inputs = &inputs;
-    kernel.shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
-    kernel.radiance = light.radiance;
+    kernel.lights = sample.lights;
+    kernel.light = sample.light;
     kernel.shares = share_samples(sample.count);
     kernel.from_brdf = sample.index >= kernel.shares.light;
     const int index = kernel.from_brdf ? sample.index - kernel.shares.light : sample.index;
     const int count = kernel.from_brdf ? kernel.shares.brdf : kernel.shares.light;
-    const std::uint32_t dimension = 2 * sample.light_index + (kernel.from_brdf ? 1 : 0);
+    const std::uint32_t dimension = 2 * sample.light + (kernel.from_brdf ? 1 : 0);
     kernel.sequence = make_sequence(inputs.frame, dimension, count);
     kernel.sample_in_technique = static_cast<std::uint32_t>(index);
-    kernel.range_margin = kernel.shape.plane_tolerance + kMarginPerRadius * kernel.shape.radius;
     static constexpr float kNoInstances = 0;
     kernel.offset_scales =
         inputs.offset_scales.empty() ? &kNoInstances : inputs.offset_scales.data();

@@ -51,11 +51,11 @@ struct RayInputs {
     std::span<const float> offset_scales;  // Occluders::offset_scales()
 };
 
-// Sample `index` of `count` (1 to 64) of one light. `light_index` numbers the light within the
-// scene and selects its random numbers.
+// Sample `index` of `count` (1 to 64) of one light. `light` numbers it within the scene's lights
+// and selects its random numbers.
 struct LightSample {
-    const PolygonLight* light = nullptr;
-    std::uint32_t light_index = 0;
+    LightSetView lights;
+    std::uint32_t light = 0;
     int index = 0;
     int count = 1;
 };

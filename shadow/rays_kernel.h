@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/light/polygon_shape.h"
+#include "core/light/light_set.h"
 #include "core/sampling/mis.h"
 #include "core/sampling/sequence.h"
 #include "shadow/rays.h"
@@ -10,13 +10,12 @@ namespace penumbra {
 // generate_rays with everything that all pixels share worked out.
 struct RayKernelInputs {
     const shadow::RayInputs* inputs = nullptr;
-    PolygonShape<float> shape;
-    Vec3f radiance{};
+    LightSetView lights;
+    std::uint32_t light = 0;
     Sequence sequence;
     SampleShares shares;
     std::uint32_t sample_in_technique = 0;
     bool from_brdf = false;
-    float range_margin = 0;                // metres above the light's plane at which rays end
     const float* offset_scales = nullptr;  // at least one element
 };
 

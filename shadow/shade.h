@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/frame/light_sums.h"
+#include "core/light/lobe_accuracy.h"
 #include "shadow/lights.h"
 
 namespace penumbra::shadow {
@@ -12,9 +13,10 @@ namespace penumbra::shadow {
 //     unshadowed_glossy  = ltc_specular_scale        * sum radiance * ltc_form_factor
 //
 // (core/light/polygon.h, core/light/ltc_table.h), over the directions above the horizon of the
-// shading normal; what the geometric surface hides is the shadow rays' matter. Writes the two U
-// planes of `sums` and nothing else; 0 where nothing is hit.
-void shade(const LightSet& set, const TileLights& tile_lights, const SceneView& view,
+// shading normal; what the geometric surface hides is the shadow rays' matter. `accuracy`
+// is that of glossy light. Writes the two U planes of `sums` and nothing else; 0 where nothing is
+// hit.
+void shade(const SceneView& view, const TileLights& tile_lights, LobeAccuracy accuracy,
            const FrameContext& context, const ConstSurfaceView& surface, const LightSumsView& sums);
 
 }  // namespace penumbra::shadow

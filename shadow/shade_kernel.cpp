@@ -17,18 +17,18 @@ namespace {
                                         simd::load<F>(surface.roughness.row(y) + x),
                                         simd::load<F>(surface.metallic.row(y) + x),
                                         simd::load<F>(surface.dielectric_f0.row(y) + x)};
-    shadow::ShadingLobes<F> lobes;
+    shadow::ShadingLobes<F> lobes{};  // compilers cannot see that it is set before it is used
     shadow::ArrivingLight<F> sum;
     bool is_lit = false;
     for (int i = 0; i < job.kept_count; ++i) {
-        const shadow::ShadedLight& light = job.lights[job.kept[i]];
-        const SeenPolygon<F> seen = see_polygon(light.shape, point.position, point.normal);
-        if (!simd::any(seen.lit)) continue;
-        // The table is only asked where some light arrives.
-        if (!is_lit) lobes = shadow::make_lobes(point);
-        is_lit = true;
-        shadow::add_light(light.shape, light.radiance, seen, point.normal, lobes, job.accuracy,
-                          sum);
+        with_light(job.lights, job.kept[i], [&](const auto& light) {
+            const auto seen = see(light.shape, point.position, point.normal);
+            if (!simd::any(seen.lit)) return;
+            // The table is only asked where some light arrives.
+            if (!is_lit) lobes = shadow::make_lobes(point);
+            is_lit = true;
+            shadow::add_light(light, seen, point.normal, lobes, job.accuracy, sum);
+        });
     }
     return is_lit ? shadow::reflect(lobes, sum) : shadow::Unshadowed<F>{};
 }

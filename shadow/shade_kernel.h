@@ -4,12 +4,13 @@
 
 #include "core/frame/light_sums.h"
 #include "core/frame/surface.h"
-#include "shadow/lights.h"
+#include "core/light/light_set.h"
+#include "core/light/lobe_accuracy.h"
 
 namespace penumbra::shadow {
 
 struct ShadeJob {
-    const ShadedLight* lights;
+    LightSetView lights;
     const std::uint32_t* kept;
     int kept_count;
     Vec3f eye;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/light/lobe_ratio.h"
-#include "core/light/polygon.h"
+#include "core/light/light_set.h"
 #include "core/math/frame.h"
+#include "shadow/light_kinds.h"
 
 // The unshadowed light at shading points, one per lane, as the kernel and programs that are not
 // ours call it.
@@ -62,19 +62,20 @@ struct Unshadowed {
     Vec3<F> glossy{F(0), F(0), F(0)};
 };
 
-template <class F>
-void add_light(const PolygonShape<float>& shape, const Vec3f& radiance, const SeenPolygon<F>& seen,
-               const Vec3<F>& normal, const ShadingLobes<F>& lobes, LobeAccuracy accuracy,
-               ArrivingLight<F>& sum) {
-    CosinePolygon<F> polygon;
-    const FormFactors<F> factors = form_factors(shape, seen, normal, lobes.fitted, polygon);
+// `seen` is the light as the point sees it.
+template <class F, class Shape, class Seen>
+void add_light(const Lit<Shape>& light, const Seen& seen, const Vec3<F>& normal,
+               const ShadingLobes<F>& lobes, LobeAccuracy accuracy, ArrivingLight<F>& sum) {
+    typename LightTypes<Shape, F>::InCosineSpace in_cosine_space;
+    const FormFactors<F> factors =
+        form_factors(light.shape, seen, normal, lobes.fitted, in_cosine_space);
     const LobeIntegral<F> glossy = integrate_lobe(
-        lobes.exact, polygon,
+        lobes.exact, in_cosine_space,
         RatioDemand<F>{seen.lit, factors.ltc, lobes.matte * factors.lambert, accuracy});
-    const Vec3<F> light = broadcast<F>(radiance);
-    sum.lambert = fma(light, factors.lambert, sum.lambert);
-    sum.plain = fma(light, glossy.plain - glossy.fresnel, sum.plain);
-    sum.fresnel = fma(light, glossy.fresnel, sum.fresnel);
+    const Vec3<F> radiance = broadcast<F>(light.emission.radiance);
+    sum.lambert = fma(radiance, factors.lambert, sum.lambert);
+    sum.plain = fma(radiance, glossy.plain - glossy.fresnel, sum.plain);
+    sum.fresnel = fma(radiance, glossy.fresnel, sum.fresnel);
 }
 
 template <class F>
@@ -82,15 +83,14 @@ Unshadowed<F> reflect(const ShadingLobes<F>& lobes, const ArrivingLight<F>& ligh
     return {lobes.diffuse_albedo * light.lambert, lobes.f0 * light.plain + light.fresnel};
 }
 
-// The unshadowed light of one polygon at one point: radiance towards the viewer.
-template <class F>
-Unshadowed<F> unshadowed_light(const PolygonShape<float>& shape, const Vec3f& radiance,
-                               const ShadingPoint<F>& point,
+// The unshadowed light of one light at one point: radiance towards the viewer.
+template <class F, class Shape>
+Unshadowed<F> unshadowed_light(const Lit<Shape>& light, const ShadingPoint<F>& point,
                                LobeAccuracy accuracy = LobeAccuracy::kExact) {
-    const SeenPolygon<F> seen = see_polygon(shape, point.position, point.normal);
+    const auto seen = see(light.shape, point.position, point.normal);
     const ShadingLobes<F> lobes = make_lobes(point);
     ArrivingLight<F> sum;
-    add_light(shape, radiance, seen, point.normal, lobes, accuracy, sum);
+    add_light(light, seen, point.normal, lobes, accuracy, sum);
     return reflect(lobes, sum);
 }
 

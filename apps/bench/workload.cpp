@@ -117,8 +117,8 @@ Workload record_workload(const Scene& scene, const renderer::ImageSettings& imag
     work.covered_pixels = count_covered(film);
     work.shaded_pairs = work.shadow_rays / samples;
     int fewest = kMaxLightVertices;
-    for (const PolygonLight& light : work.view.lights)
-        fewest = std::min(fewest, light.vertex_count);
+    for (const PolygonLight& light : work.view.lights.polygons)
+        fewest = std::min(fewest, light.shape.count);
     work.shaded_vertices = work.shaded_pairs * static_cast<std::uint64_t>(fewest);
     return work;
 }

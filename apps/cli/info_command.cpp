@@ -81,9 +81,8 @@ void print_scene(const std::string& path) {
         print_row("texture", fmt::format("{}: {} x {}", texture.name, texture.levels[0].width,
                                          texture.levels[0].height));
     for (const Light& light : scene.lights)
-        print_row("light",
-                  fmt::format("{}: {}{}", light.name, light.polygon.is_rect() ? "rect" : "polygon",
-                              light.two_sided ? ", two-sided" : ""));
+        print_row("light", fmt::format("{}: {}{}", light.name, kind_name(light.shape),
+                                       light.two_sided ? ", two-sided" : ""));
     print_row("emitters", fmt::format("{} (emissive faces of models)", scene.emitters.size()));
     for (const std::string& warning : scene.warnings) print_row("warning", warning);
 }

@@ -62,7 +62,6 @@ struct Renderer::State {
     SceneView view;
     Camera camera;                                 // without jitter
     const std::atomic<bool>* cancelled = nullptr;  // of the frame that is rendered
-    shadow::LightSet lights;
     raster::Geometry geometry;
     FrameScratch frame_scratch;
     std::vector<TileScratch> scratch;  // one per worker
@@ -95,8 +94,6 @@ void Renderer::State::evaluate_at(int frame, FrameStatistics& statistics) {
              {.width = image.width, .height = image.height}, view);
     camera = view.camera;
     if (plan_of(image.method).needs_occluders) occluders.update(view);
-    shadow::prepare_lights(view, lights);
-    lights.accuracy = image.unshadowed;
 }
 
 // S_N and U_N: one ray per pixel, light and sample at a time, so that rays fit the cache.
@@ -111,8 +108,8 @@ void Renderer::State::trace_lights(const Tile& tile, const FrameContext& context
         if (is_cancelled()) return;
         for (int sample = 0; sample < image.samples_per_pixel; ++sample) {
             shadow::generate_rays(inputs,
-                                  {.light = &view.lights[light],
-                                   .light_index = light,
+                                  {.lights = view.lights.view(),
+                                   .light = light,
                                    .index = sample,
                                    .count = image.samples_per_pixel},
                                   tile_scratch.rays);
@@ -139,12 +136,12 @@ void Renderer::State::render_tile(const Tile& tile, const FrameContext& context,
     count.clock.end(Pass::kRasterize);
 
     raster::resolve(view, geometry, context, tile, s.visibility(), s.surface());
-    shadow::draw_lights(lights, view, context, tile, s.surface());
+    shadow::draw_lights(view, context, tile, s.surface());
     count.clock.end(Pass::kResolve);
 
     const ConstSurfaceView surface = to_const(s.surface());
-    shadow::cull_lights(lights, view, context, surface, image.light_tolerance, s.lights);
-    shadow::shade(lights, s.lights, view, context, surface, s.sums());
+    shadow::cull_lights(view, context, surface, image.light_tolerance, s.lights);
+    shadow::shade(view, s.lights, image.unshadowed, context, surface, s.sums());
     count.clock.end(Pass::kShade);
 
     s.clear_samples();

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "core/math/vec.h"
+#include "core/light/polygon_shape.h"
 
 // A convex polygon clipped to the half-space above a shading point's horizon.
 
 namespace penumbra {
 
-inline constexpr int kMaxPolygonVertices = 8;                        // of a light
 inline constexpr int kMaxClippedVertices = kMaxPolygonVertices + 2;  // room for two clips in a row
 
 // Every lane has the same number of slots, one more than the polygon had vertices. Lanes that need

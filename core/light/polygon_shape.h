@@ -1,10 +1,12 @@
 #pragma once
 
-#include "core/light/clip.h"
+#include "core/math/vec.h"
 
 // A planar, convex polygon light as the closed forms of core/light/polygon.h read it.
 
 namespace penumbra {
+
+inline constexpr int kMaxPolygonVertices = 8;
 
 // Everything that does not depend on the shading point, formed once in double. The differences
 // between vertices are what keeps the closed forms accurate for small and far lights: they are

@@ -88,12 +88,12 @@ Light default_light(const Scene& scene) {
     const double half_side = 0.8 * radius;
     Light light;
     light.name = "default light";
-    light.polygon.center = constant(narrow(box.center() + from_center));
-    light.polygon.half_axis_u = constant(narrow(u * half_side));
-    light.polygon.half_axis_v = constant(narrow(v * half_side));
+    light.shape = RectTrack{.center = constant(narrow(box.center() + from_center)),
+                            .half_axis_u = constant(narrow(u * half_side)),
+                            .half_axis_v = constant(narrow(v * half_side))};
     // The irradiance at the centre is L A / d^2 = 0.44 L whatever the radius: 10 makes a surface of
     // albedo 0.5 as bright as 0.7 where it faces the light, 0.35 where it faces the camera.
-    light.radiance = constant(Vec3f{10, 10, 10});
+    light.emission.radiance = constant(Vec3f{10, 10, 10});
     light.visible = false;
     return light;
 }

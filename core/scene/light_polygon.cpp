@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/math/portable.h"
-#include "core/math/widen.h"
 
 namespace penumbra {
 namespace {
@@ -55,19 +54,6 @@ std::optional<std::string> polygon_problem(std::span<const Vec3d> vertices) {
     // A star turns left at every corner too, but more than once around.
     if (turned > 7) return "the polygon crosses itself";
     return std::nullopt;
-}
-
-std::vector<Vec3d> vertices_at(const LightPolygonTrack& track, double time) {
-    std::vector<Vec3d> vertices;
-    if (!track.is_rect()) {
-        for (const Vec3Track& vertex : track.vertices)
-            vertices.push_back(widen(evaluate(vertex, time)));
-        return vertices;
-    }
-    const Vec3d center = widen(evaluate(track.center, time));
-    const Vec3d u = widen(evaluate(track.half_axis_u, time));
-    const Vec3d v = widen(evaluate(track.half_axis_v, time));
-    return {center - u - v, center + u - v, center + u + v, center - u + v};
 }
 
 }  // namespace penumbra

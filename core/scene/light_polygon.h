@@ -3,9 +3,8 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "core/scene/scene.h"
+#include "core/math/vec.h"
 
 // Geometry of the polygons that emit.
 
@@ -18,8 +17,5 @@ namespace penumbra {
 // What is wrong with a polygon as a light: an area of zero, a vertex off the plane, a corner that
 // is not convex. Nothing, if nothing is. Tolerances are relative to the polygon's size.
 [[nodiscard]] std::optional<std::string> polygon_problem(std::span<const Vec3d> vertices);
-
-// The vertices of a scene file's light at a time; a rect's run counter-clockwise seen from u x v.
-[[nodiscard]] std::vector<Vec3d> vertices_at(const LightPolygonTrack& track, double time);
 
 }  // namespace penumbra

@@ -4,26 +4,12 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/scene/light_polygon.h"
 #include "core/scene/read_tracks.h"
 
 namespace penumbra {
 namespace {
 
 constexpr json::Range kPosition{-1e9, 1e9};
-
-void check_type(const json::Node& node) {
-    const json::Node type = node.require("type");
-    const std::string& name = type.text();
-    if (name == "rect" || name == "polygon") return;
-    const std::vector<std::string> later{"disk", "sphere", "ellipsoid", "box", "line",
-                                         "mesh", "point",  "spot",      "sun"};
-    if (std::find(later.begin(), later.end(), name) != later.end())
-        type.fail(
-            fmt::format("\"{}\" is not supported yet; expected \"rect\" or \"polygon\"", name));
-    type.fail(fmt::format("expected \"rect\" or \"polygon\", got {}{}", type.shown(),
-                          json::suggestion(name, {"rect", "polygon"})));
-}
 
 void refuse_later_fields(const json::Node& node) {
     for (const char* field : {"texture", "ies", "portal", "intensity"})
@@ -53,35 +39,69 @@ std::vector<Vec3Track> vertex_tracks(const KeyedNode& node) {
     return tracks;
 }
 
+LightShapeTrack read_rect(const KeyedNode& node) {
+    return RectTrack{.center = node.vectors("center", kPosition, std::nullopt),
+                     .half_axis_u = node.vectors("u", kPosition, std::nullopt),
+                     .half_axis_v = node.vectors("v", kPosition, std::nullopt)};
+}
+
+LightShapeTrack read_polygon(const KeyedNode& node) {
+    return PolygonTrack{.vertices = vertex_tracks(node)};
+}
+
+// A word of the scene file, the fields of its shape, all of which may have keys, and their reader.
+struct Kind {
+    const char* name;
+    std::vector<std::string_view> fields;
+    LightShapeTrack (*read)(const KeyedNode& node);
+};
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> all{
+        {"rect", {"center", "u", "v"}, read_rect},
+        {"polygon", {"vertices"}, read_polygon},
+    };
+    return all;
+}
+constexpr const char* kNotYet[] = {"disk", "sphere", "ellipsoid", "box", "line",
+                                   "mesh", "point",  "spot",      "sun"};
+
+const Kind& kind_of(const json::Node& node) {
+    const json::Node type = node.require("type");
+    const std::string& name = type.text();
+    std::string expected;
+    for (const Kind& kind : kinds()) {
+        if (kind.name == name) return kind;
+        expected += fmt::format("{}\"{}\"", expected.empty() ? "" : " or ", kind.name);
+    }
+    if (std::find(std::begin(kNotYet), std::end(kNotYet), name) != std::end(kNotYet))
+        type.fail(fmt::format("\"{}\" is not supported yet; expected {}", name, expected));
+    std::vector<std::string> names;
+    for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+    type.fail(fmt::format("expected {}, got {}{}", expected, type.shown(),
+                          json::suggestion(name, names)));
+}
+
 void check_shape(const KeyedNode& node, const Light& light) {
     const auto check = [&](double time, const std::string& when) {
-        const auto vertices = vertices_at(light.polygon, time);
-        if (const auto problem = polygon_problem(vertices)) node.node().fail(when + *problem);
+        if (const auto problem = shape_problem(light.shape, time))
+            node.node().fail(when + *problem);
     };
     if (node.keys().empty()) check(0, "");
     for (const auto& key : node.keys()) check(key.time, fmt::format("at {:g} s ", key.time));
 }
 
 Light read_light(const json::Node& node) {
-    check_type(node);
+    const Kind& kind = kind_of(node);
     refuse_later_fields(node);
-    const bool is_rect = node.require("type").text() == "rect";
-    const KeyedNode keyed = is_rect ? KeyedNode(node, {"center", "u", "v", "radiance"},
-                                                {"name", "type", "two_sided", "visible"})
-                                    : KeyedNode(node, {"vertices", "radiance"},
-                                                {"name", "type", "two_sided", "visible"});
+    std::vector<std::string_view> fields = kind.fields;
+    fields.emplace_back("radiance");
+    const KeyedNode keyed(node, fields, {"name", "type", "two_sided", "visible"});
     Light light;
     if (const auto name = node.find("name")) light.name = name->text();
     if (const auto flag = node.find("two_sided")) light.two_sided = flag->boolean();
     if (const auto flag = node.find("visible")) light.visible = flag->boolean();
-    light.radiance = keyed.vectors("radiance", json::kNonNegative, std::nullopt);
-    if (is_rect) {
-        light.polygon.center = keyed.vectors("center", kPosition, std::nullopt);
-        light.polygon.half_axis_u = keyed.vectors("u", kPosition, std::nullopt);
-        light.polygon.half_axis_v = keyed.vectors("v", kPosition, std::nullopt);
-    } else {
-        light.polygon.vertices = vertex_tracks(keyed);
-    }
+    light.emission.radiance = keyed.vectors("radiance", json::kNonNegative, std::nullopt);
+    light.shape = kind.read(keyed);
     check_shape(keyed, light);
     return light;
 }

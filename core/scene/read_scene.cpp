@@ -8,7 +8,6 @@
 #include "core/parallel/arena.h"
 #include "core/scene/camera_check.h"
 #include "core/scene/frame_model.h"
-#include "core/scene/light_polygon.h"
 #include "core/scene/read_lights.h"
 #include "core/scene/read_tracks.h"
 #include "core/scene/scene_builder.h"
@@ -149,8 +148,7 @@ void check_animation(const Scene& scene) {
         if (const auto problem = camera_problem(scene.camera, time))
             throw InputError(scene.file, "camera", fmt::format("at frame {} {}", frame, *problem));
         for (std::size_t k = 0; k < scene.lights.size(); ++k) {
-            const auto vertices = vertices_at(scene.lights[k].polygon, time);
-            if (const auto problem = polygon_problem(vertices))
+            if (const auto problem = shape_problem(scene.lights[k].shape, time))
                 throw InputError(scene.file, fmt::format("lights[{}]", k),
                                  fmt::format("at frame {} {}", frame, *problem));
         }

@@ -75,7 +75,7 @@ Vec3Track read_scale(const KeyedNode& node) {
 
 }  // namespace
 
-KeyedNode::KeyedNode(const json::Node& node, std::initializer_list<std::string_view> fields,
+KeyedNode::KeyedNode(const json::Node& node, const std::vector<std::string_view>& fields,
                      std::initializer_list<std::string_view> others)
     : node_(node) {
     std::vector<std::string_view> known(fields);

@@ -14,7 +14,7 @@ class KeyedNode {
   public:
     // Fields may stand in the object and in its keys; both may hold nothing but these and, in the
     // object, `others`.
-    KeyedNode(const json::Node& node, std::initializer_list<std::string_view> fields,
+    KeyedNode(const json::Node& node, const std::vector<std::string_view>& fields,
               std::initializer_list<std::string_view> others);
 
     [[nodiscard]] const json::Node& node() const { return node_; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/affine.h"
+#include "core/scene/light_track.h"
 #include "core/scene/texture.h"
 #include "core/scene/track.h"
 
@@ -70,8 +71,8 @@ struct LightPolygon {
 // A light of the scene file: drawn if visible, but no geometry: it casts no shadow.
 struct Light {
     std::string name;
-    LightPolygonTrack polygon;  // world space
-    Vec3Track radiance;
+    LightShapeTrack shape;
+    EmissionTrack emission;
     bool two_sided = false;
     bool visible = true;
 };

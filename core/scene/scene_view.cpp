@@ -15,6 +15,8 @@
 namespace penumbra {
 namespace {
 
+static_assert(kMaxPolygonVertices == kMaxLightVertices);
+
 // Beyond this many metres products of distances leave the range of float.
 constexpr float kLargestCoordinate = 1e9f;
 // The default near distance, of the scene's diagonal and of the distance to the camera's target:
@@ -121,19 +123,16 @@ void evaluate_instance(const Scene& scene, const Model& model, EvaluateTimes tim
                          fmt::format("reaches beyond {:g} metres", kLargestCoordinate));
 }
 
-PolygonLight make_light(std::span<const Vec3d> vertices, const Vec3f& radiance) {
+// Without a shape, hence without light, where the vertices coincide once they are rounded.
+PolygonLight make_light(std::span<const Vec3d> vertices, bool two_sided, const Vec3f& radiance) {
+    PENUMBRA_ASSERT(vertices.size() <= kMaxPolygonVertices, "{} vertices", vertices.size());
+    Vec3f rounded[kMaxPolygonVertices];
+    std::transform(vertices.begin(), vertices.end(), rounded, narrow);
     PolygonLight light;
-    light.vertex_count = static_cast<int>(vertices.size());
-    Vec3d sum{0, 0, 0};
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        light.vertices[i] = narrow(vertices[i]);
-        sum += vertices[i];
-    }
-    const Vec3d doubled_area = newell_normal(vertices);
-    light.normal = narrow(normalize(doubled_area));
-    light.area = static_cast<float>(length(doubled_area) / 2);
-    light.center = narrow(sum / static_cast<double>(vertices.size()));
-    light.radiance = radiance;
+    if (static_cast<float>(length(newell_normal(vertices)) / 2) > 0)
+        light.shape = make_polygon_shape(rounded, static_cast<int>(vertices.size()), two_sided);
+    if (!(light.shape.area > 0)) light.shape = {};
+    light.emission.radiance = radiance;
     return light;
 }
 
@@ -150,21 +149,19 @@ Affine3f map_between(std::span<const Vec3d> from, std::span<const Vec3d> to) {
     return {narrow(column(0)), narrow(column(1)), narrow(column(2)), narrow(to[0] - moved)};
 }
 
-PolygonLight evaluate_light(const Scene& scene, const Light& light, EvaluateTimes times) {
-    const double time = times.now;
-    const std::vector<Vec3d> vertices = vertices_at(light.polygon, time);
-    if (const auto problem = polygon_problem(vertices))
-        throw InputError(scene.file, fmt::format("light '{}'", light.name),
-                         fmt::format("at {:g} s {}", time, *problem));
-    PolygonLight result = make_light(vertices, evaluate(light.radiance, time));
-    const std::vector<Vec3d> before = vertices_at(light.polygon, times.previous);
+// Rects and polygons.
+template <class Track>
+PolygonLight evaluate_light(const Light& light, const Track& track, EvaluateTimes times) {
+    const std::vector<Vec3d> vertices = vertices_at(track, times.now);
+    PolygonLight result =
+        make_light(vertices, light.two_sided, evaluate(light.emission.radiance, times.now));
+    const std::vector<Vec3d> before = vertices_at(track, times.previous);
     const auto same = [](const Vec3d& a, const Vec3d& b) {
         return a.x == b.x && a.y == b.y && a.z == b.z;
     };
     const bool moved = !std::equal(vertices.begin(), vertices.end(), before.begin(), same);
     if (moved && !polygon_problem(before))
         result.previous_from_current = map_between(vertices, before);
-    result.two_sided = light.two_sided;
     result.visible = light.visible;
     return result;
 }
@@ -177,7 +174,7 @@ PolygonLight place_emitter(const Emitter& emitter, const Instance& instance) {
         vertices.push_back(
             transform.point(widen(emitter.polygon.vertices[static_cast<std::size_t>(i)])));
     if (instance.flips_winding) std::reverse(vertices.begin(), vertices.end());
-    PolygonLight light = make_light(vertices, emitter.radiance);
+    PolygonLight light = make_light(vertices, false, emitter.radiance);
     light.visible = false;
     light.is_geometry = true;
     return light;
@@ -185,11 +182,16 @@ PolygonLight place_emitter(const Emitter& emitter, const Instance& instance) {
 
 void evaluate_lights(const Scene& scene, EvaluateTimes times, SceneView& view) {
     view.lights.clear();
-    for (const Light& light : scene.lights)
-        view.lights.push_back(evaluate_light(scene, light, times));
+    for (const Light& light : scene.lights) {
+        if (const auto problem = shape_problem(light.shape, times.now))
+            throw InputError(scene.file, fmt::format("light '{}'", light.name),
+                             fmt::format("at {:g} s {}", times.now, *problem));
+        std::visit([&](const auto& track) { view.lights.add(evaluate_light(light, track, times)); },
+                   light.shape);
+    }
     for (const Emitter& emitter : scene.emitters) {
         const PolygonLight light = place_emitter(emitter, view.instances[emitter.model]);
-        if (light.area > 0) view.lights.push_back(light);  // else shrunk below float's range
+        if (light.shape.area > 0) view.lights.add(light);  // else shrunk below float's range
     }
 }
 

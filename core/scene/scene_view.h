@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/frame/camera.h"
+#include "core/light/light_set.h"
 #include "core/scene/scene.h"
 
 // The scene at the time of one frame: what the passes read.
@@ -28,27 +29,13 @@ struct Instance {
     Vec3f bounds_min{}, bounds_max{};  // of the positions, world
 };
 
-// A light of this frame: convex, planar, emitting to the side of `normal` (both, if two-sided).
-struct PolygonLight {
-    int vertex_count = 0;  // 3 to 8, counter-clockwise seen from the side of `normal`
-    Vec3f vertices[kMaxLightVertices];
-    Vec3f normal;    // unit
-    Vec3f center;    // mean of the vertices
-    float area = 0;  // square metres
-    Vec3f radiance;
-    Affine3f previous_from_current;  // its points' world positions now -> in the previous frame
-    bool two_sided = false;
-    bool visible = true;  // drawn by the lights' own pass; false for emitters: they are geometry
-    bool is_geometry = false;  // an emissive face of a model
-};
-
 // Everything the passes of a frame read; owns the evaluated positions. Refer to it by const
 // reference.
 struct SceneView {
     std::span<const Material> materials;
     std::span<const Texture> textures;
-    std::vector<Instance> instances;   // one per model, in the scene's order
-    std::vector<PolygonLight> lights;  // the scene file's, then the emitters', in the scene's order
+    std::vector<Instance> instances;  // one per model, in the scene's order
+    LightSet lights;                  // the scene file's, then the emitters', in the scene's order
     Vec3f background{};
     Camera camera;
     Camera previous_camera;

@@ -44,12 +44,4 @@ struct TransformTrack {
 // Degrees about x, then y, then z.
 [[nodiscard]] glm::dquat rotation_from_degrees(const Vec3d& degrees);
 
-// A polygon is a rect (center, half-axes u and v) or a list of vertices.
-struct LightPolygonTrack {
-    std::vector<Vec3Track> vertices;  // 3 to 8 of them for a polygon; empty for a rect
-    Vec3Track center, half_axis_u, half_axis_v;
-
-    [[nodiscard]] bool is_rect() const { return vertices.empty(); }
-};
-
 }  // namespace penumbra

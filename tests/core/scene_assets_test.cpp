@@ -80,7 +80,7 @@ TEST_CASE("the Cornell box's ceiling light is one rectangle that shines down") {
     const Scene scene = read_scene(file);
     evaluate(scene, {}, {100, 100}, view);
     REQUIRE(view.lights.size() == 1);
-    CHECK(view.lights[0].vertex_count == 4);
-    CHECK(view.lights[0].normal.y < -0.999f);
-    CHECK(view.lights[0].area == doctest::Approx(0.47 * 0.38).epsilon(0.02));
+    CHECK(view.lights.polygons[0].shape.count == 4);
+    CHECK(view.lights.polygons[0].shape.normal.y < -0.999f);
+    CHECK(view.lights.polygons[0].shape.area == doctest::Approx(0.47 * 0.38).epsilon(0.02));
 }

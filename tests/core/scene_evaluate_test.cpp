@@ -105,16 +105,16 @@ TEST_CASE("emitters emit to the model's outside, mirrored or not, with their wor
         REQUIRE(view.lights.size() == 4);
         const Vec3d center = center_of(view.instances[0]);
         double area = 0;
-        for (const PolygonLight& light : view.lights) {
-            CHECK(dot(wide(light.normal), wide(light.center) - center) > 0);
+        for (const PolygonLight& light : view.lights.polygons) {
+            CHECK(dot(wide(light.shape.normal), wide(light.shape.center) - center) > 0);
             CHECK(light.is_geometry);
             CHECK_FALSE(light.visible);
             std::vector<Vec3d> vertices;
-            for (int i = 0; i < light.vertex_count; ++i)
-                vertices.push_back(wide(light.vertices[i]));
-            CHECK(dot(newell_normal(vertices), wide(light.normal)) ==
-                  doctest::Approx(2 * light.area).epsilon(1e-5));
-            area += light.area;
+            for (int i = 0; i < light.shape.count; ++i)
+                vertices.push_back(wide(light.shape.vertices[i]));
+            CHECK(dot(newell_normal(vertices), wide(light.shape.normal)) ==
+                  doctest::Approx(2 * light.shape.area).epsilon(1e-5));
+            area += light.shape.area;
         }
         CHECK(area == doctest::Approx(4 * (1 + 1.5 + 3 + 3.5)).epsilon(1e-6));
     }
@@ -125,18 +125,45 @@ TEST_CASE("a rect emits to the side of u x v, and so does its polygon") {
         {"type": "rect", "center": [0,3,0], "u": [0.5,0,0], "v": [0,0,0.25], "radiance": [1,2,3], "two_sided": true, "visible": false}])");
     const SceneView view = view_at(scene, 0, 0);
     REQUIRE(view.lights.size() == 1);
-    const PolygonLight& light = view.lights[0];
-    CHECK(light.vertex_count == 4);
-    check_equal(light.normal, {0, -1, 0});
-    check_equal(light.center, {0, 3, 0});
-    CHECK(light.area == 0.5f);
-    CHECK(light.two_sided);
+    const PolygonLight& light = view.lights.polygons[0];
+    CHECK(light.shape.count == 4);
+    check_equal(light.shape.normal, {0, -1, 0});
+    check_equal(light.shape.center, {0, 3, 0});
+    CHECK(light.shape.area == 0.5f);
+    CHECK(light.shape.two_sided);
     CHECK_FALSE(light.visible);
     CHECK_FALSE(light.is_geometry);
-    CHECK(light.radiance.z == 3);
-    const Vec3f turn =
-        cross(light.vertices[1] - light.vertices[0], light.vertices[2] - light.vertices[1]);
+    CHECK(light.emission.radiance.z == 3);
+    const Vec3f turn = cross(light.shape.vertices[1] - light.shape.vertices[0],
+                             light.shape.vertices[2] - light.shape.vertices[1]);
     CHECK(turn.y < 0);
+}
+
+TEST_CASE("lights stand in the scene file's order, each as what its kind is") {
+    const Scene scene = read_with(R"("lights": [
+        {"type": "polygon", "vertices": [[0,1,0],[1,1,0],[0,1,1]], "radiance": [1,0,0]},
+        {"type": "rect", "center": [0,3,0], "u": [1,0,0], "v": [0,0,1], "radiance": [2,0,0]},
+        {"type": "polygon", "vertices": [[0,2,0],[1,2,0],[1,2,1],[0.5,2,2],[0,2,1]], "radiance": [3,0,0]}])");
+    CHECK(kind_name(scene.lights[0].shape) == std::string("polygon"));
+    CHECK(kind_name(scene.lights[1].shape) == std::string("rect"));
+    const SceneView view = view_at(scene, 0, 0);
+    REQUIRE(view.lights.size() == 3);
+    constexpr int kVertices[] = {3, 4, 5};
+    for (std::uint32_t i = 0; i < 3; ++i)
+        with_light(view.lights.view(), i, [&](const PolygonLight& light) {
+            CHECK(light.emission.radiance.x == static_cast<float>(i + 1));
+            CHECK(light.shape.count == kVertices[i]);
+        });
+}
+
+TEST_CASE("a light too small for its distance has no shape, and keeps its place among the others") {
+    const Scene scene = read_with(R"("lights": [
+        {"type": "rect", "center": [1e6,3,0], "u": [1e-3,0,0], "v": [0,0,1], "radiance": [1,1,1]},
+        {"type": "rect", "center": [0,3,0], "u": [1e-3,0,0], "v": [0,0,1], "radiance": [1,1,1]}])");
+    const SceneView view = view_at(scene, 0, 0);
+    REQUIRE(view.lights.size() == 2);
+    CHECK(view.lights.polygons[0].shape.count == 0);
+    CHECK(view.lights.polygons[1].shape.count == 4);
 }
 
 TEST_CASE("the motion transform takes a world position to where it was") {
@@ -242,13 +269,15 @@ TEST_CASE("a model alone is framed whole, whatever its place, size and shape") {
             // The default light faces the model and is not in the picture.
             REQUIRE(view.lights.size() == 1);
             const Vec3f center = (view.bounds_min + view.bounds_max) * 0.5f;
-            const Vec3f from_light = center - view.lights[0].center;
-            CHECK(dot(from_light, view.lights[0].normal) > 0.99f * length(from_light));
-            CHECK_FALSE(view.lights[0].visible);
+            const Vec3f from_light = center - view.lights.polygons[0].shape.center;
+            CHECK(dot(from_light, view.lights.polygons[0].shape.normal) >
+                  0.99f * length(from_light));
+            CHECK_FALSE(view.lights.polygons[0].visible);
             // A grey surface at the centre that faces it is exposed well: E albedo / pi.
             const float distance = length(from_light);
-            const float radiance = view.lights[0].radiance.x * view.lights[0].area /
-                                   (distance * distance) * 0.5f / std::numbers::pi_v<float>;
+            const float radiance = view.lights.polygons[0].emission.radiance.x *
+                                   view.lights.polygons[0].shape.area / (distance * distance) *
+                                   0.5f / std::numbers::pi_v<float>;
             CHECK(radiance > 0.4f);
             CHECK(radiance < 1);
         }

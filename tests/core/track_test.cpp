@@ -123,7 +123,8 @@ TEST_CASE("camera, lights and their radiance move by keys") {
                                         {});
     CHECK(evaluate(scene.camera.eye, 1).x == 1);
     CHECK(evaluate(scene.camera.vertical_field_of_view, 1) == 40);
-    CHECK(evaluate(scene.lights[0].radiance, 2).x == 3);
-    CHECK(evaluate(scene.lights[0].polygon.vertices[0], 2).x == 2);
-    CHECK(evaluate(scene.lights[0].polygon.vertices[2], 4).z == 1);
+    CHECK(evaluate(scene.lights[0].emission.radiance, 2).x == 3);
+    const auto& polygon = std::get<PolygonTrack>(scene.lights[0].shape);
+    CHECK(evaluate(polygon.vertices[0], 2).x == 2);
+    CHECK(evaluate(polygon.vertices[2], 4).z == 1);
 }

@@ -22,7 +22,6 @@ struct Frame {
     FrameContext context;
     PixelRect crop;
     SceneView view;
-    shadow::LightSet lights;
     raster::Geometry geometry;
     std::vector<float> offset_scales;  // rays are not traced: where they start does not matter
 };
@@ -30,8 +29,6 @@ struct Frame {
 void prepare(const Scene& scene, const parallel::Arena& arena, Frame& frame) {
     evaluate(scene, times_of_frame(scene.animation, frame.settings.frame),
              {.width = frame.settings.width, .height = frame.settings.height}, frame.view);
-    shadow::prepare_lights(frame.view, frame.lights);
-    frame.lights.accuracy = frame.settings.accuracy;
     raster::prepare(frame.view, frame.context, frame.crop, arena, frame.geometry);
     frame.offset_scales.assign(std::max<std::size_t>(frame.view.instances.size(), 1), 0.0f);
 }
@@ -41,11 +38,11 @@ void shade_tile(const Frame& frame, const Tile& tile, TileScratch& s) {
     const FrameContext& context = frame.context;
     raster::rasterize(frame.view, frame.geometry, tile, context.isa, s.raster, s.visibility());
     raster::resolve(frame.view, frame.geometry, context, tile, s.visibility(), s.surface());
-    shadow::draw_lights(frame.lights, frame.view, context, tile, s.surface());
+    shadow::draw_lights(frame.view, context, tile, s.surface());
     const ConstSurfaceView surface = to_const(s.surface());
-    shadow::cull_lights(frame.lights, frame.view, context, surface,
-                        renderer::ImageSettings{}.light_tolerance, s.lights);
-    shadow::shade(frame.lights, s.lights, frame.view, context, surface, s.sums());
+    shadow::cull_lights(frame.view, context, surface, renderer::ImageSettings{}.light_tolerance,
+                        s.lights);
+    shadow::shade(frame.view, s.lights, frame.settings.accuracy, context, surface, s.sums());
 }
 
 // Leaves the U_N of one set of rays in scratch.
@@ -60,8 +57,8 @@ void sample_set(const Frame& frame, const Tile& tile, std::uint32_t seed, TileSc
     for (const std::uint32_t light : s.lights.kept()) {
         for (int sample = 0; sample < kRaysPerSet; ++sample) {
             shadow::generate_rays(inputs,
-                                  {.light = &frame.view.lights[light],
-                                   .light_index = light,
+                                  {.lights = frame.view.lights.view(),
+                                   .light = light,
                                    .index = sample,
                                    .count = kRaysPerSet},
                                   s.rays);
@@ -160,7 +157,6 @@ UnshadowedFrame render_unshadowed(const Scene& scene, const UnshadowedSettings& 
                             .isa = simd::best_isa()},
                 .crop = settings.crop.value_or(PixelRect{.x1 = width, .y1 = height}),
                 .view = {},
-                .lights = {},
                 .geometry = {},
                 .offset_scales = {}};
     PENUMBRA_ASSERT(frame.crop.x0 % kTileSize == 0 && frame.crop.y0 % kTileSize == 0, "{}, {}",

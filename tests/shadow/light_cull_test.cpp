@@ -11,11 +11,10 @@ using namespace penumbra::light_testing;
 
 namespace {
 
-std::vector<std::uint32_t> kept_lights(const shadow::LightSet& set, const SceneView& scene,
-                                       const TilePlanes& tile, float tolerance,
-                                       simd::Isa isa = simd::best_isa()) {
+std::vector<std::uint32_t> kept_lights(const SceneView& scene, const TilePlanes& tile,
+                                       float tolerance, simd::Isa isa = simd::best_isa()) {
     shadow::TileLights kept;
-    shadow::cull_lights(set, scene, {.isa = isa}, tile.const_surface(), tolerance, kept);
+    shadow::cull_lights(scene, {.isa = isa}, tile.const_surface(), tolerance, kept);
     return {kept.kept().begin(), kept.kept().end()};
 }
 
@@ -25,12 +24,11 @@ double unshadowed(const TilePlanes& tile, int x, int y) {
 
 using Luminances = std::vector<double>;
 
-Luminances shade_with(const shadow::LightSet& set, const SceneView& scene, float tolerance,
-                      TilePlanes& tile) {
+Luminances shade_with(const SceneView& scene, float tolerance, TilePlanes& tile) {
     const FrameContext context{.isa = simd::best_isa()};
     shadow::TileLights kept;
-    shadow::cull_lights(set, scene, context, tile.const_surface(), tolerance, kept);
-    shadow::shade(set, kept, scene, context, tile.const_surface(), tile.sums());
+    shadow::cull_lights(scene, context, tile.const_surface(), tolerance, kept);
+    shadow::shade(scene, kept, LobeAccuracy::kExact, context, tile.const_surface(), tile.sums());
     Luminances values;
     for (int i = 0; i < kTileSize * kTileSize; ++i)
         values.push_back(unshadowed(tile, i % kTileSize, i / kTileSize));
@@ -58,14 +56,12 @@ TEST_CASE("culled lights add up to at most the tolerance at every pixel") {
                                           {Landscape::kBumps, 1.0},
                                           {Landscape::kChaos, 0.2}}) {
         const SceneView scene = random_lights(random, 300, 1);
-        shadow::LightSet set;
-        shadow::prepare_lights(scene, set);
         fill_tile(random, landscape, size, tile);
-        const Luminances all = shade_with(set, scene, 0, tile);
+        const Luminances all = shade_with(scene, 0, tile);
         for (const float tolerance : {1.0f / 1024, 1.0f / 16}) {
-            CHECK(largest_loss(all, shade_with(set, scene, tolerance, tile)) <= tolerance);
-            kept += kept_lights(set, scene, tile, tolerance).size();
-            total += set.lights.size();
+            CHECK(largest_loss(all, shade_with(scene, tolerance, tile)) <= tolerance);
+            kept += kept_lights(scene, tile, tolerance).size();
+            total += scene.lights.size();
         }
     }
     MESSAGE("kept " << kept << " of " << total);
@@ -78,22 +74,20 @@ TEST_CASE("one bright light near a small patch of floor makes hundreds of dim on
     for (int i = 0; i < 300; ++i) {
         const Vec3d center =
             Vec3d{random.uniform(-50, 50), random.uniform(20, 50), random.uniform(-50, 50)};
-        scene.lights.push_back(
+        scene.lights.add(
             make_light(reference::ellipse_polygon(random, center, {0.02, 0, 0}, {0, 0, 0.02}),
                        {1, 1, 1}, true));
     }
-    scene.lights.push_back(
+    scene.lights.add(
         make_light({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {10, 10, 10}, true));
     scene.camera.eye = {0, 1.5f, 3};
-    shadow::LightSet set;
-    shadow::prepare_lights(scene, set);
     TilePlanes tile;
     fill_tile(random, Landscape::kFloor, 0.2, tile);
-    const std::vector<std::uint32_t> kept = kept_lights(set, scene, tile, 1.0f / 1024);
+    const std::vector<std::uint32_t> kept = kept_lights(scene, tile, 1.0f / 1024);
     CHECK(kept.size() < 30);
     CHECK(std::find(kept.begin(), kept.end(), 300u) != kept.end());
-    const Luminances all = shade_with(set, scene, 0, tile);
-    CHECK(largest_loss(all, shade_with(set, scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
+    const Luminances all = shade_with(scene, 0, tile);
+    CHECK(largest_loss(all, shade_with(scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
 }
 
 TEST_CASE("small lights that mirror in a polished floor are kept, however little they light it") {
@@ -101,21 +95,19 @@ TEST_CASE("small lights that mirror in a polished floor are kept, however little
     SceneView scene;
     for (int i = 0; i < 100; ++i) {
         const Vec3d center = {random.uniform(-1, 1), 2, random.uniform(-3, -2)};
-        scene.lights.push_back(
+        scene.lights.add(
             make_light(reference::ellipse_polygon(random, center, {0.004, 0, 0}, {0, 0.004, 0}),
                        {3, 3, 3}, true));
     }
-    scene.lights.push_back(
+    scene.lights.add(
         make_light({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {10, 10, 10}, true));
     scene.camera.eye = {0, 2, 2.5f};  // sees the small lights mirrored around the origin
-    shadow::LightSet set;
-    shadow::prepare_lights(scene, set);
     TilePlanes tile;
     fill_tile(random, Landscape::kFloor, 0.2, tile);
     tile.roughness.fill(0.06f);
-    const Luminances all = shade_with(set, scene, 0, tile);
-    CHECK(largest_loss(all, shade_with(set, scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
-    CHECK(kept_lights(set, scene, tile, 1.0f / 1024).size() > 50);
+    const Luminances all = shade_with(scene, 0, tile);
+    CHECK(largest_loss(all, shade_with(scene, 1.0f / 1024, tile)) <= 1.0 / 1024);
+    CHECK(kept_lights(scene, tile, 1.0f / 1024).size() > 50);
 }
 
 TEST_CASE("it is the sum of the culled lights that stays below the tolerance") {
@@ -123,18 +115,16 @@ TEST_CASE("it is the sum of the culled lights that stays below the tolerance") {
     SceneView scene;
     const reference::Points place = {
         {-0.01, 2, -0.01}, {0.01, 2, -0.01}, {0.01, 2, 0.01}, {-0.01, 2, 0.01}};
-    scene.lights.push_back(make_light(place, {1600, 1600, 1600}, true));
-    for (int i = 0; i < 20; ++i) scene.lights.push_back(make_light(place, {20, 20, 20}, true));
+    scene.lights.add(make_light(place, {1600, 1600, 1600}, true));
+    for (int i = 0; i < 20; ++i) scene.lights.add(make_light(place, {20, 20, 20}, true));
     scene.camera.eye = {0, 2, 2};
-    shadow::LightSet set;
-    shadow::prepare_lights(scene, set);
     TilePlanes tile;
     fill_tile(random, Landscape::kFloor, 0.01, tile);
     tile.roughness.fill(1);
     tile.dielectric_f0.fill(0);
     for (Plane<float>& plane : tile.base_color) plane.fill(0.9f);
     // Each adds 1/80 of the bright one: five are less than 1/16 of what is left, and six are not.
-    const std::size_t culled = 21 - kept_lights(set, scene, tile, 1.0f / 16).size();
+    const std::size_t culled = 21 - kept_lights(scene, tile, 1.0f / 16).size();
     CHECK(culled >= 2);
     CHECK(culled <= 5);
 }
@@ -142,12 +132,10 @@ TEST_CASE("it is the sum of the culled lights that stays below the tolerance") {
 TEST_CASE("a tolerance of zero keeps every light, and the kept ones are in ascending order") {
     reference::Random random(43);
     const SceneView scene = random_lights(random, 100, 1);
-    shadow::LightSet set;
-    shadow::prepare_lights(scene, set);
     TilePlanes tile;
     fill_tile(random, Landscape::kBumps, 1, tile);
-    CHECK(kept_lights(set, scene, tile, 0).size() == 100);
-    const std::vector<std::uint32_t> kept = kept_lights(set, scene, tile, 1.0f / 64);
+    CHECK(kept_lights(scene, tile, 0).size() == 100);
+    const std::vector<std::uint32_t> kept = kept_lights(scene, tile, 1.0f / 64);
     CHECK(kept.size() < 100);
     CHECK(std::is_sorted(kept.begin(), kept.end()));
 }
@@ -157,12 +145,10 @@ TEST_CASE("the choice of lights does not depend on the instruction set") {
     TilePlanes tile;
     for (int trial = 0; trial < 5; ++trial) {
         const SceneView scene = random_lights(random, 200, 1);
-        shadow::LightSet set;
-        shadow::prepare_lights(scene, set);
         fill_tile(random, Landscape::kBumps, 0.5, tile);
-        const std::vector<std::uint32_t> expected = kept_lights(set, scene, tile, 1.0f / 256);
+        const std::vector<std::uint32_t> expected = kept_lights(scene, tile, 1.0f / 256);
         for (const simd::Isa isa : instruction_sets())
-            CHECK(kept_lights(set, scene, tile, 1.0f / 256, isa) == expected);
+            CHECK(kept_lights(scene, tile, 1.0f / 256, isa) == expected);
     }
 }
 
@@ -174,7 +160,7 @@ TEST_CASE("bounds of a form factor hold for points and normals anywhere in their
         const reference::Configuration c =
             reference::random_configuration(random, random.uniform(0.01, 2));
         const PolygonLight light = make_light(c.polygon, {1, 1, 1}, trial % 2 == 0);
-        const auto shape = make_polygon_shape(light.vertices, light.vertex_count, light.two_sided);
+        const PolygonShape<float>& shape = light.shape;
         const shadow::SurfaceBall<float> ball{to_float(c.point), static_cast<float>(reach),
                                               to_float(c.normal), static_cast<float>(bend)};
         const auto bounds = shadow::bound_form_factor(ball, shape);

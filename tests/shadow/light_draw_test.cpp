@@ -49,9 +49,7 @@ PolygonLight square(float half, float depth, const Vec3f& radiance, bool towards
 
 void draw(const SceneView& scene, TilePlanes& tile, const Tile& place = {},
           simd::Isa isa = simd::best_isa()) {
-    shadow::LightSet set;
-    shadow::prepare_lights(scene, set);
-    shadow::draw_lights(set, scene, {.isa = isa}, place, tile.surface());
+    shadow::draw_lights(scene, {.isa = isa}, place, tile.surface());
 }
 
 int drawn_pixels(const TilePlanes& tile) {
@@ -65,7 +63,7 @@ int drawn_pixels(const TilePlanes& tile) {
 
 TEST_CASE("a light in front of a wall covers exactly the pixels whose centres it contains") {
     SceneView scene = empty_scene();
-    scene.lights.push_back(square(1, 4, {7, 8, 9}));  // 16 pixels to each side of the centre
+    scene.lights.add(square(1, 4, {7, 8, 9}));  // 16 pixels to each side of the centre
     for (const simd::Isa isa : instruction_sets()) {
         TilePlanes tile;
         fill_wall(tile);
@@ -80,7 +78,7 @@ TEST_CASE("a light in front of a wall covers exactly the pixels whose centres it
 
 TEST_CASE("a drawn light is emission without a surface to shade") {
     SceneView scene = empty_scene();
-    scene.lights.push_back(square(1, 4, {7, 8, 9}));
+    scene.lights.add(square(1, 4, {7, 8, 9}));
     TilePlanes tile;
     fill_wall(tile);
     draw(scene, tile);
@@ -102,7 +100,7 @@ TEST_CASE("a drawn light is emission without a surface to shade") {
 TEST_CASE("lights are hidden by what stands before them, by their back, and by being invisible") {
     const auto pixels = [](const PolygonLight& light) {
         SceneView scene = empty_scene();
-        scene.lights.push_back(light);
+        scene.lights.add(light);
         TilePlanes tile;
         fill_wall(tile);
         draw(scene, tile);
@@ -121,10 +119,8 @@ TEST_CASE("lights are hidden by what stands before them, by their back, and by b
 TEST_CASE("the nearest of several lights is seen, whatever their order") {
     for (const bool near_first : {false, true}) {
         SceneView scene = empty_scene();
-        scene.lights.push_back(
-            square(1, near_first ? 4.0f : 6.0f, {near_first ? 1.0f : 2.0f, 0, 0}));
-        scene.lights.push_back(
-            square(1, near_first ? 6.0f : 4.0f, {near_first ? 2.0f : 1.0f, 0, 0}));
+        scene.lights.add(square(1, near_first ? 4.0f : 6.0f, {near_first ? 1.0f : 2.0f, 0, 0}));
+        scene.lights.add(square(1, near_first ? 6.0f : 4.0f, {near_first ? 2.0f : 1.0f, 0, 0}));
         TilePlanes tile;
         fill_wall(tile);
         draw(scene, tile);
@@ -134,7 +130,7 @@ TEST_CASE("the nearest of several lights is seen, whatever their order") {
 
 TEST_CASE("a light is drawn the same in whichever tile its pixels lie") {
     SceneView scene = empty_scene();
-    scene.lights.push_back(square(3, 4, {1, 1, 1}));  // 96 pixels wide, from -16 to 80
+    scene.lights.add(square(3, 4, {1, 1, 1}));  // 96 pixels wide, from -16 to 80
     int pixels = 0;
     for (int y = -64; y <= 64; y += 64) {
         for (int x = -64; x <= 64; x += 64) {
@@ -150,7 +146,7 @@ TEST_CASE("a light is drawn the same in whichever tile its pixels lie") {
 TEST_CASE("a light that reaches behind the camera is drawn where it is in front") {
     SceneView scene = empty_scene();
     // A ceiling one metre above, from ten metres behind the camera to the wall.
-    scene.lights.push_back(
+    scene.lights.add(
         make_light({{-50, 1, -10}, {50, 1, -10}, {50, 1, 10}, {-50, 1, 10}}, {1, 1, 1}, true));
     TilePlanes tile;
     fill_wall(tile);
@@ -164,7 +160,7 @@ TEST_CASE("a light that reaches behind the camera is drawn where it is in front"
 
 TEST_CASE("the motion of a light at rest is that of the camera") {
     SceneView scene = empty_scene();
-    scene.lights.push_back(square(1, 4, {1, 1, 1}));
+    scene.lights.add(square(1, 4, {1, 1, 1}));
     scene.previous_camera.eye = {-0.25f, 0, 0};  // it moved right by a quarter: 4 pixels at depth 4
     TilePlanes tile;
     fill_wall(tile);

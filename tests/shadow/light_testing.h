@@ -114,14 +114,10 @@ inline void fill_tile(reference::Random& random, Landscape landscape, double siz
 inline PolygonLight make_light(const reference::Points& points, const Vec3f& radiance,
                                bool two_sided) {
     PolygonLight light;
-    light.vertex_count = static_cast<int>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) light.vertices[i] = to_float(points[i]);
-    const PolygonShape<float> shape = make_polygon_shape(light.vertices, light.vertex_count);
-    light.normal = shape.normal;
-    light.center = shape.center;
-    light.area = shape.area;
-    light.radiance = radiance;
-    light.two_sided = two_sided;
+    Vec3f vertices[kMaxPolygonVertices];
+    for (std::size_t i = 0; i < points.size(); ++i) vertices[i] = to_float(points[i]);
+    light.shape = make_polygon_shape(vertices, static_cast<int>(points.size()), two_sided);
+    light.emission.radiance = radiance;
     return light;
 }
 
@@ -137,7 +133,7 @@ inline SceneView random_lights(reference::Random& random, int count, double size
         const Vec3f radiance = to_float(
             Vec3d{random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)} * power);
         const bool two_sided = random.uniform() < 0.3;
-        scene.lights.push_back(
+        scene.lights.add(
             make_light(reference::ellipse_polygon(random, center, u * extent, v * extent), radiance,
                        two_sided));
     }

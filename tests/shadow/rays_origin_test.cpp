@@ -77,13 +77,13 @@ class Surroundings {
             normals[static_cast<std::size_t>(pixel)] = facet_normal(instance_, triangles[index]);
             point.geometric_normal = normals[static_cast<std::size_t>(pixel)];
             // Whatever the facet: the light is above the shading horizon.
-            point.normal = normalize(light.center - point.position);
+            point.normal = normalize(light.shape.center - point.position);
             tile_.set(pixel, point);
         }
         TileRun run{&occluders_, Visibility::kTraced, center_ + direction() * (3 * scale_), {}};
         run.frame.seed = ++seed_;
         const RayInputs inputs = inputs_of(run, tile_);
-        generate_rays(inputs, {&light, 0, 0, 1}, scratch_);
+        generate_rays(inputs, {only(light), 0, 0, 1}, scratch_);
         trace(occluders_, Visibility::kTraced, scratch_);
         for (int pixel = 0; pixel < kTilePixels; ++pixel)
             judge(pixel, normals[static_cast<std::size_t>(pixel)], counts);
@@ -165,7 +165,7 @@ TEST_CASE("a floor of a kilometre has no acne near an eye two metres above it") 
     }
     RayScratch scratch;
     const TileRun run{&occluders, Visibility::kTraced, over, {}};
-    generate_rays(inputs_of(run, tile), {&light, 0, 0, 1}, scratch);
+    generate_rays(inputs_of(run, tile), {only(light), 0, 0, 1}, scratch);
     trace(occluders, Visibility::kTraced, scratch);
     CHECK(scratch.visible == scratch.active);
     CHECK(scratch.active[0] != 0);
@@ -183,7 +183,7 @@ TEST_CASE("an open sheet is dark where the light is behind it, whatever its shad
     tile.fill({{0.2f, 0, 0.1f}, {0, 1, 0}, normalize(Vec3f{1, 0.5f, 0})});
     RayScratch scratch;
     const TileRun run{&occluders, Visibility::kTraced, {0, 2, 0}, {}};
-    generate_rays(inputs_of(run, tile), {&light, 0, 0, 1}, scratch);
+    generate_rays(inputs_of(run, tile), {only(light), 0, 0, 1}, scratch);
     trace(occluders, Visibility::kTraced, scratch);
     CHECK(scratch.active[5] == ~std::uint64_t(0));
     for (const std::uint64_t row : scratch.visible) CHECK(row == 0);
@@ -221,13 +221,13 @@ TEST_CASE("an emissive face never blocks rays to itself, nor do its coplanar nei
                 const float y = 6 * unit(random) - 3, z = 6 * unit(random) - 3;
                 SurfacePoint point;
                 point.position = transform.point({height, y, z});
-                point.normal = point.geometric_normal =
-                    normalize(light.center - point.position + light.normal * (1e-3f * scale));
+                point.normal = point.geometric_normal = normalize(
+                    light.shape.center - point.position + light.shape.normal * (1e-3f * scale));
                 tile.set(pixel, point);
             }
             RayScratch scratch;
             const TileRun run{&occluders, Visibility::kTraced, transform.point({5, 0, 0}), {}};
-            generate_rays(inputs_of(run, tile), {&light, 0, 0, 1}, scratch);
+            generate_rays(inputs_of(run, tile), {only(light), 0, 0, 1}, scratch);
             trace(occluders, Visibility::kTraced, scratch);
             int rays = 0, blocked = 0;
             for (std::size_t row = 0; row < kTileSize; ++row) {
@@ -258,7 +258,7 @@ TEST_CASE("up to four samples all lie on the light; rays exist only where light 
     const TileRun run{&occluders, Visibility::kForcedToOne, {0, 1, 3}, {}};
     for (int count = 1; count <= 4; ++count)
         for (int sample = 0; sample < count; ++sample) {
-            generate_rays(inputs_of(run, tile), {&light, 0, sample, count}, scratch);
+            generate_rays(inputs_of(run, tile), {only(light), 0, sample, count}, scratch);
             for (std::size_t row = 0; row < kTileSize; ++row)
                 CHECK(scratch.active[row] == 0x1111111111111111u);
             for (int x = 0; x < kTileSize; x += 4) {

@@ -131,7 +131,7 @@ void add_light(const TileRun& run, const PolygonLight& light, int samples, HandT
                RayScratch& scratch) {
     const RayInputs inputs = inputs_of(run, tile);
     for (int sample = 0; sample < samples; ++sample) {
-        generate_rays(inputs, {&light, 0, sample, samples}, scratch);
+        generate_rays(inputs, {only(light), 0, sample, samples}, scratch);
         trace(*run.occluders, run.visibility, scratch);
         accumulate(scratch, run.frame.isa, tile.sums());
     }

@@ -75,15 +75,15 @@ SphereMesh make_box();  // from -1 to 1
 
 inline PolygonLight make_light(const std::vector<Vec3f>& vertices, bool two_sided = false) {
     PolygonLight light;
-    light.vertex_count = static_cast<int>(vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) light.vertices[i] = vertices[i];
-    const auto shape = make_polygon_shape(light.vertices, light.vertex_count);
-    light.normal = shape.normal;
-    light.center = shape.center;
-    light.area = shape.area;
-    light.radiance = {1, 2, 3};
-    light.two_sided = two_sided;
+    light.shape = make_polygon_shape(vertices.data(), static_cast<int>(vertices.size()), two_sided);
+    light.emission.radiance = {1, 2, 3};
     return light;
+}
+
+// A scene's only light.
+inline LightSetView only(const PolygonLight& light) {
+    static constexpr LightRef kFirst{LightKind::kPolygon, 0};
+    return {&kFirst, 1, &light};
 }
 
 struct SurfacePoint {

@@ -76,10 +76,11 @@ Reference reference(const SceneView& scene, const PolygonLight& light, const Sur
     constexpr int kSteps = 240;
     const Integrand integrand{point, to_double(eye)};
     Reference sum;
-    const Vec3d a = to_double(light.vertices[0]);
-    for (int corner = 1; corner + 1 < light.vertex_count; ++corner) {
-        const Vec3d e1 = to_double(light.vertices[corner]) - a;
-        const Vec3d e2 = to_double(light.vertices[corner + 1]) - to_double(light.vertices[corner]);
+    const Vec3d a = to_double(light.shape.vertices[0]);
+    for (int corner = 1; corner + 1 < light.shape.count; ++corner) {
+        const Vec3d e1 = to_double(light.shape.vertices[corner]) - a;
+        const Vec3d e2 =
+            to_double(light.shape.vertices[corner + 1]) - to_double(light.shape.vertices[corner]);
         const Vec3d area = cross(e1, e2);
         for (int i = 0; i < kSteps; ++i)
             for (int j = 0; j < kSteps; ++j) {
@@ -88,12 +89,12 @@ Reference reference(const SceneView& scene, const PolygonLight& light, const Sur
                 const Vec3d to_light = place - to_double(point.position);
                 const double distance = length(to_light);
                 double facing = -dot(area, to_light);
-                if (light.two_sided) facing = std::fabs(facing);
+                if (light.shape.two_sided) facing = std::fabs(facing);
                 if (facing <= 0) continue;
                 // Of the triangle's points the share between u and u + du is 2 u du.
                 const double measure = facing / (distance * distance * distance) * u /
                                        (static_cast<double>(kSteps) * kSteps);
-                integrand.add(scene, place, to_double(light.radiance) * measure, sum);
+                integrand.add(scene, place, to_double(light.emission.radiance) * measure, sum);
             }
     }
     return sum;
@@ -231,11 +232,10 @@ TEST_CASE("the mean of U_N is the closed form where that is exact") {
     occluders.update(empty.evaluated());
     for (const SumsCase& c : sums_cases()) {
         const Reference expected = reference(empty.view, c.light, c.point, c.eye);
-        const auto shape =
-            make_polygon_shape(c.light.vertices, c.light.vertex_count, c.light.two_sided);
+        const PolygonShape<float>& shape = c.light.shape;
         const auto seen = see_polygon<float>(shape, c.point.position, c.point.normal);
         const float form_factor = lambert_form_factor(shape, seen, c.point.normal);
-        const double closed = static_cast<double>(form_factor * c.light.radiance.x *
+        const double closed = static_cast<double>(form_factor * c.light.emission.radiance.x *
                                                   c.point.base_color.x * (1 - c.point.metallic));
         CHECK(closed == doctest::Approx(expected.diffuse.x).epsilon(1e-4));
         // The specular part, which has no closed form, from the cubature.
@@ -275,7 +275,7 @@ TEST_CASE(
         for (std::size_t channel = 0; channel < 3; ++channel)
             CHECK(std::memcmp(tile.shadowed[channel].row(0), tile.unshadowed[channel].row(0),
                               kTilePixels * sizeof(float)) == 0);
-        if (c.light.center.y < 1) continue;
+        if (c.light.shape.center.y < 1) continue;
         run.visibility = Visibility::kTraced;
         tile.clear_sums();
         add_light(run, c.light, c.samples, tile, scratch);
