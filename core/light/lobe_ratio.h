@@ -313,20 +313,25 @@ LobeRatio<F> extrapolate(const LobeRatio<F>& coarse, const LobeRatio<F>& finer) 
 
 // What may be left of a change by extrapolation.
 inline constexpr float kFinestDoubt = 0.3f;
+// And what the spread over the quarters says where both levels miss a narrow peak.
+inline constexpr float kFinestSpread = 0.06f;
 
 // The levels beyond the center, for the lanes with `share` > 0.
 template <class F>
 LobeRatio<F> mean_over_triangles(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon,
                                  const RatioDemand<F>& demand, const F& size, const F& share) {
     // Of large polygons few points tell less.
-    const F caution = simd::fma(size, size, F(0.8f));
+    const F caution = simd::fma(F(0.6f) * size, size, F(0.5f));
     const RatioSums<F> middles = sum_middles(lobe, polygon);
     const LobeRatio<F> coarse = means(middles);
     const F more = need_for_more(lobe, coarse, demand, caution * deviation(lobe, middles, coarse));
     if (simd::none((share > F(0)) & (more > F(0)))) return coarse;
-    const LobeRatio<F> finer = extrapolate(coarse, means(sum_quarters(lobe, polygon)));
+    const RatioSums<F> quarters = sum_quarters(lobe, polygon);
+    const LobeRatio<F> finer = extrapolate(coarse, means(quarters));
     const F change = simd::abs(with_fresnel(lobe, finer) - with_fresnel(lobe, coarse));
-    const F most = need_for_more(lobe, finer, demand, F(kFinestDoubt) * change);
+    const F spread = caution * deviation(lobe, quarters, means(quarters));
+    const F most = need_for_more(lobe, finer, demand,
+                                 simd::fma(F(kFinestSpread), spread, F(kFinestDoubt) * change));
     if (simd::none((share > F(0)) & (more > F(0)) & (most > F(0))))
         return blend(coarse, finer, more);
     const LobeRatio<F> finest = means(sum_finely(lobe, polygon));
