@@ -1,9 +1,7 @@
 #pragma once
 
-#include "core/bsdf/ggx.h"
-#include "core/light/cosine_polygon.h"
 #include "core/light/lobe_accuracy.h"
-#include "core/light/ltc_table.h"
+#include "core/light/lobe_points.h"
 
 // The glossy light of a polygon, equal to the true BRDF's and without noise: the integral of the
 // fitted distribution D over the light has a closed form; here it is multiplied with the mean of
@@ -18,48 +16,14 @@
 // where the fit is exact the fraction is, too.
 //
 // The polygon is cut into triangles around the direction of its vector irradiance, which lies
-// inside and moves smoothly when the horizon cuts vertices off. Four levels: that direction alone;
-// the middles of the triangles; of their quarters; six points on each quarter. The next level is
-// asked where the polygon's size, and then the spread of lobe / D over the points at hand, say that
-// it could change the pixel visibly, and blended in, so that no step is seen. The direction alone
-// is already closer to the truth than fits of the lobe are. tests/core/lobe_ratio_test.cpp and
-// docs/methods.md have the errors.
+// inside and moves smoothly when the horizon cuts vertices off. Four levels: their common mean; one
+// point for each; one for each of their quarters, the quadratic error extrapolated away; six for
+// each quarter. The next level is asked where the polygon's size, and then the spread of lobe / D
+// over the points at hand, say that it could change the pixel visibly, and blended in, so that no
+// step is seen. The one point alone is already closer to the truth than fits of the lobe are.
+// tests/core/lobe_ratio_test.cpp and docs/methods.md have the errors.
 
 namespace penumbra {
-
-// The GGX lobe as cosine space sees it. Directions there map to (x - shear z, scale_y y, scale_z z)
-// in the shading frame, up to a factor.
-template <class F>
-struct CosineSpaceLobe {
-    F shear, scale_y, scale_z;
-    F view_sine, view_cosine;
-    F squared_alpha, root_view;  // ggx_smith_root of the view
-    F constant;                  // of lobe / D
-    F norm, fresnel;             // albedos, as in LtcEntry
-    F f0;                        // mean over the channels, for the spread alone
-};
-
-// `view` in the shading frame; its y is 0.
-template <class F>
-CosineSpaceLobe<F> make_cosine_space_lobe(const LtcEntry<F>& entry, const F& alpha,
-                                          const Vec3<F>& view, const F& f0) {
-    const F inverse = F(1) / entry.m22;
-    const F cosine = simd::max(view.z, F(0));
-    // D = m22 / (pi m00^2) z |M p|^3 / |p|^4 with M scaled as above; the lobe's own factor is
-    // alpha^2 / (2 pi).
-    const F scale_z = entry.m00 * inverse;
-    return {entry.m02 * inverse,
-            entry.m00,
-            scale_z,
-            view.x,
-            cosine,
-            alpha * alpha,
-            ggx_smith_root(alpha, cosine),
-            F(0.5f) * (alpha * alpha) * entry.m00 * (scale_z * scale_z),
-            entry.norm,
-            entry.fresnel,
-            f0};
-}
 
 // Integrals over the light: of the lobe, and of the lobe times Schlick's (1 - v.h)^5.
 template <class F>
@@ -78,174 +42,6 @@ struct RatioDemand {
 
 namespace detail {
 
-// Means over the light: of lobe / D, and of that times Schlick's (1 - v.h)^5.
-template <class F>
-struct LobeRatio {
-    F plain, fresnel;
-};
-
-template <class F>
-struct RatioSums {
-    F weight = F(0), plain = F(0), fresnel = F(0), square = F(0);
-};
-
-// One point of the polygon, at `p` in cosine space, near the length that it has as a mean of unit
-// vectors. `share` is the part of the polygon that it stands for, area times height.
-template <class F>
-void add_point(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p, const F& share,
-               RatioSums<F>& sums) {
-    const F squared = simd::max(length_squared(p), F(1e-12f));
-    Vec3<F> direction{simd::fma(-lobe.shear, p.z, p.x), lobe.scale_y * p.y, lobe.scale_z * p.z};
-    const F inverse = F(1) / simd::sqrt(simd::max(length_squared(direction), F(1e-30f)));
-    direction = direction * inverse;
-    const F half_x = direction.x + lobe.view_sine;
-    const F half_z = direction.z + lobe.view_cosine;
-    const F sine2 = simd::fma(half_x, half_x, direction.y * direction.y);
-    const F cosine2 = half_z * half_z;
-    const F half2 = sine2 + cosine2;
-    const F stretched = simd::max(simd::fma(lobe.squared_alpha, cosine2, sine2), F(1e-12f));
-    const F height2 = direction.z * direction.z;
-    const F root = simd::sqrt(simd::fma(lobe.squared_alpha, F(1) - height2, height2));
-    const F masking =
-        simd::max(simd::fma(direction.z, lobe.root_view, lobe.view_cosine * root), F(1e-12f));
-    const F peak = half2 * (inverse * inverse) * squared;
-    // One division for two quotients.
-    const F sharpness = stretched * stretched * masking;
-    const F fourth = squared * squared;
-    const F quotient = F(1) / (sharpness * fourth);
-    const F ratio = lobe.constant * (peak * peak) * (quotient * fourth);
-    const F miss = F(1) - simd::min(F(0.5f) * simd::sqrt(half2), F(1));
-    const F miss2 = miss * miss;
-    const F fresnel_weight = miss2 * miss2 * miss;
-    const F weight = share * (quotient * sharpness);
-    const F weighted = weight * ratio;
-    const F colored = simd::fma(F(1) - lobe.f0, fresnel_weight, lobe.f0) * ratio;
-    sums.weight = sums.weight + weight;
-    sums.plain = sums.plain + weighted;
-    sums.fresnel = simd::fma(weighted, fresnel_weight, sums.fresnel);
-    sums.square = simd::fma(weight * colored, colored, sums.square);
-}
-
-// Exactly 0 where two vertices are the same, positive otherwise, however small the light.
-template <class F>
-F triangle_area(const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c, const F& winding) {
-    const Vec3<F> edge = c - b;
-    return simd::select(length_squared(edge) > F(0),
-                        simd::max(winding * dot(a, cross(b, edge)), F(1e-18f)), F(0));
-}
-
-template <class F>
-Vec3<F> middle(const Vec3<F>& a, const Vec3<F>& b) {
-    const Vec3<F> sum = a + b;
-    return sum * inverse_length(sum);
-}
-
-// A triangle of unit vectors as one point: its mean by height, which is where a function that is
-// linear in it has its mean under the clamped cosine.
-template <class F>
-struct TrianglePoint {
-    Vec3<F> place;
-    F share;  // area times height
-};
-
-template <class F>
-TrianglePoint<F> triangle_point(const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c,
-                                const F& area) {
-    const F height = a.z + b.z + c.z;
-    const F inverse = F(0.25f) / simd::max(height, F(1e-18f));
-    return {fma(a, simd::fma(a.z, inverse, F(0.25f)),
-                fma(b, simd::fma(b.z, inverse, F(0.25f)), c * simd::fma(c.z, inverse, F(0.25f)))),
-            area * height};
-}
-
-// Calls visit(point) with the triangles between the polygon's inner direction and its edges.
-template <class F, class Visit>
-void for_each_triangle(const CosinePolygon<F>& polygon, const Visit& visit) {
-    const Vec3<F>& center = polygon.inside;
-    for (int i = 0; i < polygon.count; ++i) {
-        const Vec3<F>& a = polygon.vertices[i];
-        const Vec3<F>& b = polygon.vertices[i + 1 < polygon.count ? i + 1 : 0];
-        visit(triangle_point(center, a, b, triangle_area(center, a, b, polygon.winding)));
-    }
-}
-
-template <class F>
-RatioSums<F> sum_middles(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
-    RatioSums<F> sums;
-    for_each_triangle(polygon, [&](const TrianglePoint<F>& point) {
-        add_point(lobe, point.place, point.share, sums);
-    });
-    return sums;
-}
-
-// Calls visit(a, b, c, area) with the quarters of the triangles between center and edges.
-template <class F, class Visit>
-void for_each_quarter(const CosinePolygon<F>& polygon, const Visit& visit) {
-    const Vec3<F>& center = polygon.inside;
-    const F& winding = polygon.winding;
-    const Vec3<F> first = middle(center, polygon.vertices[0]);
-    Vec3<F> from = first;
-    for (int i = 0; i < polygon.count; ++i) {
-        const bool closes = i + 1 == polygon.count;
-        const Vec3<F>& a = polygon.vertices[i];
-        const Vec3<F>& b = polygon.vertices[closes ? 0 : i + 1];
-        const Vec3<F> to = closes ? first : middle(center, b);
-        const Vec3<F> edge = middle(a, b);
-        const auto is_edge = length_squared(b - a) > F(0);
-        const auto quarter = [&](const Vec3<F>& p, const Vec3<F>& q, const Vec3<F>& r) {
-            visit(p, q, r, simd::select(is_edge, triangle_area(p, q, r, winding), F(0)));
-        };
-        quarter(center, from, to);
-        quarter(a, edge, from);
-        quarter(b, to, edge);
-        quarter(from, edge, to);
-        from = to;
-    }
-}
-
-template <class F>
-RatioSums<F> sum_quarters(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
-    RatioSums<F> sums;
-    for_each_quarter(polygon,
-                     [&](const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c, const F& area) {
-                         const TrianglePoint<F> point = triangle_point(a, b, c, area);
-                         add_point(lobe, point.place, point.share, sums);
-                     });
-    return sums;
-}
-
-// Six points on each quarter: Dunavant's rule of degree 4 (see core/light/cut_polygon.h).
-template <class F>
-RatioSums<F> sum_finely(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
-    constexpr float kPlace[2] = {0.445948490915965f, 0.091576213509771f};
-    constexpr float kWeight[2] = {0.223381589678011f, 0.109951743655322f};
-    RatioSums<F> sums;
-    for_each_quarter(polygon,
-                     [&](const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c, const F& area) {
-                         for (int ring = 0; ring < 2; ++ring) {
-                             const Vec3<F> all = (a + b + c) * F(kPlace[ring]);
-                             const F more = F(1 - 3 * kPlace[ring]);
-                             const F share = area * F(kWeight[ring]);
-                             for (const Vec3<F>& corner : {a, b, c}) {
-                                 const Vec3<F> place = fma(corner, more, all);
-                                 add_point(lobe, place, share * place.z, sums);
-                             }
-                         }
-                     });
-    return sums;
-}
-
-template <class F>
-LobeRatio<F> means(const RatioSums<F>& sums) {
-    const F inverse = F(1) / simd::max(sums.weight, F(1e-30f));
-    return {sums.plain * inverse, sums.fresnel * inverse};
-}
-
-template <class F>
-F with_fresnel(const CosineSpaceLobe<F>& lobe, const LobeRatio<F>& ratio) {
-    return simd::fma(lobe.f0, ratio.plain - ratio.fresnel, ratio.fresnel);
-}
-
 // The share of all that the light makes of a pixel up to which glossy light may be wrong.
 inline constexpr float kVisible = 0.01f;
 
@@ -258,14 +54,6 @@ F need_for_more(const CosineSpaceLobe<F>& lobe, const LobeRatio<F>& ratio,
     const F visible = F(kVisible) * simd::fma(demand.fitted, mean, demand.matte);
     const F excess = doubt * demand.fitted / simd::max(visible, F(1e-30f));
     return simd::select(demand.lit, simd::saturate(simd::fma(F(2), excess, F(-1))), F(0));
-}
-
-// The standard deviation of lobe / D, with Fresnel, over the points.
-template <class F>
-F deviation(const CosineSpaceLobe<F>& lobe, const RatioSums<F>& sums, const LobeRatio<F>& ratio) {
-    const F mean = with_fresnel(lobe, ratio);
-    const F mean_square = sums.square / simd::max(sums.weight, F(1e-30f));
-    return simd::sqrt(simd::max(mean_square - mean * mean, F(0)));
 }
 
 // At the polygon's mean by height.
