@@ -43,7 +43,9 @@ struct RatioDemand {
 namespace detail {
 
 // The share of all that the light makes of a pixel up to which glossy light may be wrong.
-inline constexpr float kVisible = 0.01f;
+constexpr float tolerance_of(LobeAccuracy accuracy) {
+    return accuracy == LobeAccuracy::kFast ? 0.08f : 0.01f;
+}
 
 // How far the next level is asked for, 0 to 1, where the glossy light of the sums at hand may be
 // wrong by `doubt` times what it would be if lobe / D were 1.
@@ -51,7 +53,8 @@ template <class F>
 F need_for_more(const CosineSpaceLobe<F>& lobe, const LobeRatio<F>& ratio,
                 const RatioDemand<F>& demand, const F& doubt) {
     const F mean = with_fresnel(lobe, ratio);
-    const F visible = F(kVisible) * simd::fma(demand.fitted, mean, demand.matte);
+    const F visible =
+        F(tolerance_of(demand.accuracy)) * simd::fma(demand.fitted, mean, demand.matte);
     const F excess = doubt * demand.fitted / simd::max(visible, F(1e-30f));
     return simd::select(demand.lit, simd::saturate(simd::fma(F(2), excess, F(-1))), F(0));
 }
@@ -130,7 +133,6 @@ template <class F>
 LobeRatio<F> mean_lobe_ratio(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon,
                              const RatioDemand<F>& demand) {
     const LobeRatio<F> center = ratio_at_center(lobe, polygon);
-    if (demand.accuracy == LobeAccuracy::kFast) return center;
     const F size = squared_size(polygon);
     // The center may miss the lobe's peak: its mean over all directions is the albedo.
     const F mean =
