@@ -178,4 +178,25 @@ TEST_CASE("in float glossy light keeps its digits") {
     }
 }
 
+TEST_CASE("in float the smallest and the thinnest lights in a narrow lobe are without noise") {
+    for (const double half : {5e-6, 1e-3, 0.02})
+        for (const double thinness : {1.0, 1e-3})
+            for (int i = 0; i < 200; ++i) {
+                const double angle = (70 + 0.09 * i) * std::numbers::pi / 180;
+                const Frame<double> frame = frame_from_normal(ltc_fit::direction_at(angle, 0.05));
+                LightCase c{{0.15, std::cos(80 * std::numbers::pi / 180)}, {}};
+                for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+                    c.light.push_back(frame.to_world({x * half, y * half * thinness, 1}));
+                const double expected = radiance_by_ratio<double>(c, LobeAccuracy::kExact, 1).norm;
+                const double found = radiance_by_ratio<float>(c, LobeAccuracy::kExact, 1).norm;
+                // Edge sums of thin lights round so (core/light/polygon.h).
+                const double rounding = 4e-7 / (half * thinness);
+                CAPTURE(half);
+                CAPTURE(thinness);
+                CAPTURE(i);
+                if (rounding < 0.2)
+                    CHECK(std::abs(found - expected) < (0.005 + rounding) * expected);
+            }
+}
+
 }  // namespace penumbra::tests
