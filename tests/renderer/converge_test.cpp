@@ -77,7 +77,8 @@ Comparison compare(const UnshadowedFrame& frame, const PixelRect& pixels) {
 
 }  // namespace
 
-TEST_CASE("U is what the frame's own shadow rays add up to, in the mean and in every block") {
+TEST_CASE("U is what the frame's own shadow rays add up to, in the mean and in every block" *
+          doctest::test_suite("statistics")) {
     for (const Crop& crop : kCrops) {
         CAPTURE(std::string(crop.scene));
         const UnshadowedFrame frame = render_crop(crop);

@@ -47,7 +47,8 @@ double largest_loss(const Luminances& all, const Luminances& kept) {
 
 }  // namespace
 
-TEST_CASE("culled lights add up to at most the tolerance at every pixel") {
+TEST_CASE("culled lights add up to at most the tolerance at every pixel" *
+          doctest::test_suite("statistics")) {
     reference::Random random(41);
     TilePlanes tile;
     std::size_t kept = 0, total = 0;
