@@ -152,9 +152,7 @@ F largest_fresnel_weight(const shadow::SurfaceBall<F>& ball, const Vec3f& eye, c
     // faster than angles.
     const F sines = ball.radius / eye_distance + (ball.radius + F(light.radius)) / light_distance;
     const F least = half_cosine - F(0.25f * 3.1415927f) * sines;
-    const F miss = F(1) - simd::saturate(least);
-    const F miss2 = miss * miss;
-    return miss2 * miss2 * miss;
+    return schlick_weight(simd::saturate(least));
 }
 
 // One light over as many blocks as there are lanes.

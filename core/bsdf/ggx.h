@@ -45,6 +45,14 @@ Brdf<F> make_brdf(const Vec3<F>& base_color, const F& roughness, const F& metall
             clamped * clamped};
 }
 
+// Schlick's (1 - v.h)^5, of a cosine in [0, 1].
+template <class F>
+F schlick_weight(const F& view_half) {
+    const F miss = F(1) - view_half;
+    const F miss2 = miss * miss;
+    return miss2 * miss2 * miss;
+}
+
 // The specular lobe at one pair of directions.
 template <class F>
 struct GgxLobe {
@@ -82,11 +90,9 @@ GgxLobe<F> ggx_evaluate(const F& alpha, const Vec3<F>& view, const Vec3<F>& dire
     const F masking = simd::fma(cos_light, root_view, cos_view * ggx_smith_root(alpha, cos_light));
     // |v + l| = 2 v.h for unit vectors.
     const F view_half = simd::min(F(0.5f) * length(half), F(1));
-    const F miss = F(1) - view_half;
-    const F miss2 = miss * miss;
     GgxLobe<F> lobe{};
     lobe.brdf_times_cosine = F(0.5f) * distribution * (cos_light / simd::max(masking, F(1e-24f)));
-    lobe.fresnel_weight = miss2 * miss2 * miss;
+    lobe.fresnel_weight = schlick_weight(view_half);
     lobe.density = F(0.5f) * distribution / (cos_view + root_view);
     return lobe;
 }

@@ -80,9 +80,7 @@ void add_point(const CosineSpaceLobe<F>& lobe, const Vec3<F>& p, const F& share,
     const F fourth = squared * squared;
     const F quotient = F(1) / (sharpness * fourth);
     const F ratio = lobe.constant * (peak * peak) * (quotient * fourth);
-    const F miss = F(1) - simd::min(F(0.5f) * simd::sqrt(half2), F(1));
-    const F miss2 = miss * miss;
-    const F fresnel_weight = miss2 * miss2 * miss;
+    const F fresnel_weight = schlick_weight(simd::min(F(0.5f) * simd::sqrt(half2), F(1)));
     const F weight = share * (quotient * sharpness);
     const F weighted = weight * ratio;
     const F colored = simd::fma(F(1) - lobe.f0, fresnel_weight, lobe.f0) * ratio;

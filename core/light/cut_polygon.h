@@ -37,13 +37,10 @@ F clipped_edge_sum(const ClippedPolygon<F>& part, const Vec3<F>& origin, const L
     return dot(edges, cross(flux, origin)) + dot(flux, moments);
 }
 
-// Dunavant, "High Degree Efficient Symmetrical Gaussian Quadrature Rules for the Triangle" (1985):
-// 6 points, degree 4, on each triangle of the fan.
+// Dunavant's six points on each triangle of the fan.
 template <class F, class T, class Lobe>
 F clipped_small_form_factor(const PolygonShape<T>& light, const ClippedPolygon<F>& part,
                             const SeenPolygon<F>& seen, const Lobe& lobe) {
-    constexpr T kPlace[2] = {T(0.445948490915965), T(0.091576213509771)};
-    constexpr T kWeight[2] = {T(0.223381589678011), T(0.109951743655322)};
     const Vec3<F> normal = in_lanes<F>(light.normal);
     F total = F(0);
     for (int i = 1; i + 1 < part.count; ++i) {
@@ -52,13 +49,13 @@ F clipped_small_form_factor(const PolygonShape<T>& light, const ClippedPolygon<F
         const Vec3<F> c = part.vertices[i + 1] - a;
         F mean = F(0);
         for (int ring = 0; ring < 2; ++ring) {
-            const F place = F(kPlace[ring]);
-            const F rest = F(T(1) - T(2) * kPlace[ring]);
+            const F place = F(T(kDunavantPlace[ring]));
+            const F rest = F(T(1) - T(2) * T(kDunavantPlace[ring]));
             const Vec3<F> origin = seen.vertices[0] + a;
             const F sum = point_kernel(lobe, lobe.direction(origin + (b + c) * place)) +
                           point_kernel(lobe, lobe.direction(origin + fma(b, rest, c * place))) +
                           point_kernel(lobe, lobe.direction(origin + fma(c, rest, b * place)));
-            mean = simd::fma(sum, F(kWeight[ring]), mean);
+            mean = simd::fma(sum, F(T(kDunavantWeight[ring])), mean);
         }
         total = simd::fma(mean, simd::max(dot(normal, cross(b, c - b)), F(0)), total);
     }

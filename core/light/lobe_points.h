@@ -96,18 +96,17 @@ RatioSums<F> sum_quarters(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>
     return sums;
 }
 
-// Six points on each quarter: Dunavant's rule of degree 4 (see core/light/cut_polygon.h).
+// Dunavant's six points on each quarter.
 template <class F>
 RatioSums<F> sum_finely(const CosineSpaceLobe<F>& lobe, const CosinePolygon<F>& polygon) {
-    constexpr float kPlace[2] = {0.445948490915965f, 0.091576213509771f};
-    constexpr float kWeight[2] = {0.223381589678011f, 0.109951743655322f};
     RatioSums<F> sums;
     for_each_quarter(polygon,
                      [&](const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c, const F& area) {
                          for (int ring = 0; ring < 2; ++ring) {
-                             const Vec3<F> all = (a + b + c) * F(kPlace[ring]);
-                             const F more = F(1 - 3 * kPlace[ring]);
-                             const F share = area * F(kWeight[ring]);
+                             const auto place_of_ring = static_cast<float>(kDunavantPlace[ring]);
+                             const Vec3<F> all = (a + b + c) * F(place_of_ring);
+                             const F more = F(1 - 3 * place_of_ring);
+                             const F share = area * F(static_cast<float>(kDunavantWeight[ring]));
                              for (const Vec3<F>& corner : {a, b, c}) {
                                  const Vec3<F> place = fma(corner, more, all);
                                  add_point(lobe, place, share * place.z, sums);

@@ -118,9 +118,10 @@ LobeRatio<F> mean_over_triangles(const CosineSpaceLobe<F>& lobe, const CosinePol
     const F more = need_for_more(lobe, coarse, demand, caution * deviation(lobe, middles, coarse));
     if (simd::none((share > F(0)) & (more > F(0)))) return coarse;
     const RatioSums<F> quarters = sum_quarters(lobe, polygon);
-    const LobeRatio<F> finer = extrapolate(coarse, means(quarters));
+    const LobeRatio<F> quartered = means(quarters);
+    const LobeRatio<F> finer = extrapolate(coarse, quartered);
     const F change = simd::abs(with_fresnel(lobe, finer) - with_fresnel(lobe, coarse));
-    const F spread = caution * deviation(lobe, quarters, means(quarters));
+    const F spread = caution * deviation(lobe, quarters, quartered);
     const F most = need_for_more(lobe, finer, demand,
                                  simd::fma(F(kFinestSpread), spread, F(kFinestDoubt) * change));
     if (simd::none((share > F(0)) & (more > F(0)) & (most > F(0))))

@@ -67,6 +67,11 @@ void edge_weights(const Vec3<F>* directions, int count, F* weights) {
     for (int i = 0; i < count; ++i) weights[i] = weights[i] * inverses[i];
 }
 
+// Dunavant, "High Degree Efficient Symmetrical Gaussian Quadrature Rules for the Triangle" (1985):
+// 6 points, degree 4, in two rings of three. A point lies at `place` of two corners.
+inline constexpr double kDunavantPlace[2] = {0.445948490915965, 0.091576213509771};
+inline constexpr double kDunavantWeight[2] = {0.223381589678011, 0.109951743655322};
+
 // The integrand of a small light at one of its points, per area and distance from its plane.
 template <class F, class Lobe>
 F point_kernel(const Lobe& lobe, const Vec3<F>& direction) {

@@ -34,8 +34,6 @@ struct TransformedLobe {
         return {dot(row_x, v), dot(row_y, v), dot(row_z, v)};
     }
     [[nodiscard]] F height(const Vec3<F>& direction_) const { return direction_.z; }
-    // (K a x K b).z = flux . (a x b).
-    [[nodiscard]] Vec3<F> flux() const { return cross(row_x, row_y); }
     [[nodiscard]] F determinant() const { return map_determinant; }
 };
 
